@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+namespace viwo
+{
+/** A text or binary file that appears under its name only when it is whole: written beside it under a temporary name and renamed by commit().
+ *  Without commit() the destructor keeps what is there under the final name untouched and removes the temporary file.
+ */
+class AtomicFile
+{
+   public:
+	/** @throws Error when the folder does not exist or cannot be written. */
+	explicit AtomicFile(const std::string& path);
+	~AtomicFile();
+	AtomicFile(const AtomicFile&) = delete;
+	AtomicFile& operator=(const AtomicFile&) = delete;
+
+	std::ostream& stream() { return stream_; }
+
+	/** Flushes, closes, renames. @throws Error when anything could not be written (disk full). */
+	void commit();
+
+   private:
+	std::string path_, temporary_path_;
+	std::ofstream stream_;
+	bool committed_ = false;
+};
+}  // namespace viwo
