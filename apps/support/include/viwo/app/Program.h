@@ -1,5 +1,7 @@
 #pragma once
 
+#include <viwo/core/Error.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -9,26 +11,54 @@
 /** What every program of viwo does alike: arguments, one-line errors on stderr, exit status 0 done / 1 failed / 2 bad usage. */
 namespace viwo::app
 {
+/** Arguments that parse one by one but make no sense together: reported as any bad usage, exit status 2. */
+class UsageError : public Error
+{
+   public:
+	using Error::Error;
+};
+
 /** Runs `body` after parsing; --help, --version and --quiet are added. Any exception becomes one line "<program>: error: ..." and status 1,
- *  a usage error one line and status 2.
+ *  a usage error one line and status 2. The program's name is the one given to CLI::App, or that of the executable.
  */
 int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body);
 
-/** Set by SIGINT and SIGTERM; long loops look at it and finish what they have in good order. */
+/** Set by SIGINT and SIGTERM once run() has started; long loops look at it and finish what they have in good order.
+ *  A second signal ends the program at once.
+ */
 bool interrupted();
+
+/** Whether --quiet was given: results and errors only, no progress and no remarks. */
+bool quiet();
+
+/** Version of viwo, "0.1.0". */
+std::string version();
+
+/** Full path of a file or folder of share/viwo, e.g. "config_files/viwo-odometry/default.ini": under $VIWO_SHARE, then beside the installed
+ *  program (../share/viwo), then in the source tree that the program was built from. @throws Error that names the places looked at.
+ */
+std::string findShare(const std::string& relative);
 
 /** "[####......]  42%  00:12 left  <note>" on a terminal's stderr, at most ten times a second; nothing in a pipe or when quiet. */
 class ProgressBar
 {
    public:
-	explicit ProgressBar(bool enabled);
+	explicit ProgressBar(bool enabled = true);
 	~ProgressBar();
+	ProgressBar(const ProgressBar&) = delete;
+	ProgressBar& operator=(const ProgressBar&) = delete;
+
+	/** @param fraction done, 0 to 1. */
 	void update(double fraction, const std::string& note = {});
 	/** Removes the bar, so that a log line can be printed. */
 	void clear();
 
+	/** The text of the bar, without the terminal's control characters. @param left_s seconds left, negative when not yet known. */
+	static std::string render(double fraction, double left_s, const std::string& note);
+
    private:
 	bool enabled_;
+	bool visible_ = false;
 	int64_t start_ms_ = 0, last_ms_ = 0;
 };
 }  // namespace viwo::app

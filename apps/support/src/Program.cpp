@@ -1,0 +1,141 @@
+#include <viwo/app/Program.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+namespace viwo::app
+{
+namespace
+{
+volatile std::sig_atomic_t g_interrupted = 0;
+bool g_quiet = false;
+
+extern "C" void onSignal(int)
+{
+	g_interrupted = 1;
+}
+
+void installSignalHandlers()
+{
+	struct sigaction action = {};
+	action.sa_handler = onSignal;
+	// Back to the default after the first signal, so that a second one ends a program that does not get to look at the flag.
+	action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+	sigemptyset(&action.sa_mask);
+	sigaction(SIGINT, &action, nullptr);
+	sigaction(SIGTERM, &action, nullptr);
+}
+
+/** Messages of other libraries may have several lines; a user gets one. */
+std::string oneLine(const std::string& text)
+{
+	std::string line;
+	for (const char c : text)
+	{
+		const bool blank = c == '\n' || c == '\r' || c == '\t' || c == ' ';
+		if (!blank)
+			line += c;
+		else if (!line.empty() && line.back() != ' ')
+			line += ' ';
+	}
+	while (!line.empty() && line.back() == ' ') line.pop_back();
+	return line;
+}
+
+int fail(const std::string& program, const std::string& what, int status)
+{
+	std::cout.flush();
+	std::cerr << program << ": error: " << oneLine(what) << std::endl;
+	return status;
+}
+
+int guarded(const std::string& program, const std::function<int()>& body)
+{
+	try
+	{
+		const int status = body();
+		std::cout.flush();
+		if (!std::cout) return fail(program, "standard output could not be written", 1);
+		return status;
+	}
+	catch (const UsageError& e)
+	{
+		return fail(program, std::string(e.what()) + " (see " + program + " --help)", 2);
+	}
+	catch (const std::bad_alloc&)
+	{
+		return fail(program, "out of memory", 1);
+	}
+	catch (const std::exception& e)
+	{
+		return fail(program, e.what(), 1);
+	}
+	catch (...)
+	{
+		return fail(program, "unknown failure", 1);
+	}
+}
+}  // namespace
+
+int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
+{
+	std::string program = cli.get_name();
+	if (program.empty()) program = std::filesystem::path(argc > 0 ? argv[0] : "viwo").filename().string();
+	cli.name(program);
+	cli.set_version_flag("--version", program + " (viwo) " + version());
+	cli.add_flag("--quiet", g_quiet, "Print results and errors only: no progress, no remarks");
+	try
+	{
+		cli.parse(argc, argv);
+	}
+	catch (const CLI::Success& e)  // --help, --version
+	{
+		return cli.exit(e);
+	}
+	catch (const CLI::ParseError& e)
+	{
+		return fail(program, std::string(e.what()) + " (see " + program + " --help)", 2);
+	}
+	installSignalHandlers();
+	return guarded(program, body);
+}
+
+bool interrupted()
+{
+	return g_interrupted != 0;
+}
+bool quiet()
+{
+	return g_quiet;
+}
+std::string version()
+{
+	return VIWO_VERSION;
+}
+
+std::string findShare(const std::string& relative)
+{
+	namespace fs = std::filesystem;
+	std::error_code ignored;
+	std::vector<fs::path> roots;
+	if (const char* environment = std::getenv("VIWO_SHARE"); environment != nullptr && *environment != '\0')
+		roots.emplace_back(environment);
+	const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
+	if (!executable.empty()) roots.push_back((executable.parent_path() / VIWO_SHARE_FROM_BIN).lexically_normal());
+	roots.emplace_back(VIWO_SHARE_IN_SOURCE);
+
+	std::string looked_at;
+	for (const fs::path& root : roots)
+	{
+		const fs::path candidate = root / relative;
+		if (fs::exists(candidate, ignored)) return candidate.string();
+		looked_at += (looked_at.empty() ? "" : ", ") + root.string();
+	}
+	throw Error("shared file '" + relative + "' not found in " + looked_at +
+	            "; set VIWO_SHARE to the folder share/viwo of the installation");
+}
+}  // namespace viwo::app

@@ -1,0 +1,77 @@
+#include <viwo/app/Program.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace viwo::app
+{
+namespace
+{
+constexpr int kCells = 20;
+constexpr int64_t kPeriod_ms = 100;
+/** Before this the time left is a guess not worth showing. */
+constexpr int64_t kFirstEstimate_ms = 1000;
+
+int64_t now_ms()
+{
+	using namespace std::chrono;
+	return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+}
+}  // namespace
+
+ProgressBar::ProgressBar(bool enabled) : enabled_(enabled && !quiet() && isatty(STDERR_FILENO) == 1), start_ms_(now_ms()) {}
+
+ProgressBar::~ProgressBar()
+{
+	clear();
+}
+
+std::string ProgressBar::render(double fraction, double left_s, const std::string& note)
+{
+	if (!std::isfinite(fraction)) fraction = 0;
+	fraction = std::clamp(fraction, 0.0, 1.0);
+	const int full = static_cast<int>(fraction * kCells);
+	char text[48];
+	std::snprintf(text, sizeof text, "] %3d%%  ", static_cast<int>(fraction * 100));
+	std::string line = "[" + std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kCells - full), '.') + text;
+	if (left_s >= 0)
+	{
+		const long seconds = std::lround(std::min(left_s, 359999.0));
+		if (seconds >= 3600)
+			std::snprintf(text, sizeof text, "%ld:%02ld:%02ld left", seconds / 3600, seconds / 60 % 60, seconds % 60);
+		else
+			std::snprintf(text, sizeof text, "%02ld:%02ld left", seconds / 60, seconds % 60);
+		line += text;
+	}
+	else
+		line += "--:-- left";
+	if (!note.empty()) line += "  " + note;
+	return line;
+}
+
+void ProgressBar::update(double fraction, const std::string& note)
+{
+	if (!enabled_) return;
+	const int64_t now = now_ms();
+	if (visible_ && now - last_ms_ < kPeriod_ms) return;
+	last_ms_ = now;
+	const double elapsed_s = static_cast<double>(now - start_ms_) * 1e-3;
+	const bool known = now - start_ms_ >= kFirstEstimate_ms && fraction > 1e-3;
+	const double left_s = known ? elapsed_s * (1 - std::min(fraction, 1.0)) / fraction : -1;
+	std::fprintf(stderr, "\r%s\033[K", render(fraction, left_s, note).c_str());
+	std::fflush(stderr);
+	visible_ = true;
+}
+
+void ProgressBar::clear()
+{
+	if (!visible_) return;
+	std::fputs("\r\033[K", stderr);
+	std::fflush(stderr);
+	visible_ = false;
+}
+}  // namespace viwo::app
