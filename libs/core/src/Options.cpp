@@ -135,8 +135,8 @@ void OptionsReader::rejectUnknownKeys() const
 
 void OptionsWriter::operator()(const char* key, const std::string& value, const char* comment)
 {
-	// A padded value would be stored with its spaces: no padding.
-	target_.write(section_, key, value, 0, 0, comment);
+	// A padded value would be stored with its spaces: no padding. After an empty value MRPT would read the comment as the value.
+	target_.write(section_, key, value, 0, 0, value.empty() ? "" : comment);
 }
 
 void OptionsWriter::operator()(const char* key, double value, const char* comment, double, double)
