@@ -1,0 +1,27 @@
+#pragma once
+
+#include "residuals/LocalCost.h"
+
+#include <viwo/core/Pose3.h>
+
+namespace viwo
+{
+/** Fixes the four directions that no sensor observes: position, and yaw about W's z axis.
+ *
+ *      r = [ (p - p0) / sigma_p,  e_z^T Log(R R0^T) / sigma_yaw ],   d Log(R R0^T) = J_l^-1 R dphi
+ *
+ *  Roll and pitch stay free: gravity knows them. Block: pose T_WB. Four residuals.
+ */
+class GaugePrior : public LocalCost
+{
+   public:
+	GaugePrior(const Pose3& T_WB0, double sigma_position_m, double sigma_yaw_rad);
+
+	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
+
+   private:
+	Pose3 T_WB0_;
+	double sigma_position_m_;
+	double sigma_yaw_rad_;
+};
+}  // namespace viwo
