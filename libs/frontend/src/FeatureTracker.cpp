@@ -1,0 +1,259 @@
+#include <viwo/core/Error.h>
+#include <viwo/frontend/FeatureTracker.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "Brightness.h"
+#include "CornerDetector.h"
+#include "EpipolarGate.h"
+#include "OpticalFlow.h"
+
+namespace viwo
+{
+namespace
+{
+constexpr int kClaheTiles = 8;
+constexpr double kGainTolerance = 0.005;  // below this the optical flow's bias is under 0.02 px
+constexpr double kCrowdedShare = 0.5;     // of min_distance_px
+constexpr int kSmallestSide_px = 20;      // of the pyramid level on which brightness is compared
+
+struct Track
+{
+	FeatureObservation observation;
+	cv::Point2f pixel;
+};
+
+std::string sizeText(const cv::Size& s)
+{
+	return std::to_string(s.width) + "x" + std::to_string(s.height);
+}
+
+cv::Mat loadMask(const cv::Mat& given, const std::string& path, const cv::Size& size)
+{
+	cv::Mat mask = given;
+	if (mask.empty() && !path.empty())
+	{
+		mask = cv::imread(path, cv::IMREAD_GRAYSCALE);
+		if (mask.empty()) throw Error("image mask '" + path + "' cannot be read: give an image file in mask_path, or leave it empty");
+	}
+	if (mask.empty()) return mask;
+	if (mask.type() != CV_8UC1 || mask.size() != size)
+		throw Error("image mask " + (path.empty() ? std::string() : "'" + path + "' ") + "is " + sizeText(mask.size()) +
+		            " while the camera has " + sizeText(size) + ": give an 8-bit grey image of the camera's size");
+	return mask.clone();
+}
+}  // namespace
+
+class FeatureTracker::Impl
+{
+   public:
+	Impl(const CameraModel& camera, const TrackerOptions& options, const cv::Mat& mask)
+	    : camera_(camera),
+	      options_(options),
+	      size_(camera.width_px(), camera.height_px()),
+	      detector_(size_, options, loadMask(mask, options.mask_path, size_)),
+	      clahe_(cv::createCLAHE(options.clahe_clip, cv::Size(kClaheTiles, kClaheTiles)))
+	{
+	}
+
+	FeatureFrame track(int64_t t_ns, const cv::Mat& grey, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
+	{
+		stats_ = {};
+		FeatureFrame frame;
+		frame.t_ns = t_ns;
+		stats_.usable = isUsable(grey);
+		if (!stats_.usable)
+		{
+			reset();
+			return frame;
+		}
+		FlowImage current(conditioned(grey), options_);
+		if (!previous_.empty())
+		{
+			matchBrightness(current);
+			follow(current, R_Cprev_Ccur);
+		}
+		detect(current);
+		previous_ = std::move(current);
+		frame.features.reserve(tracks_.size());
+		for (const Track& t : tracks_) frame.features.push_back(t.observation);
+		return frame;
+	}
+
+	void reset()
+	{
+		tracks_.clear();
+		previous_ = {};
+	}
+
+	const TrackerStats& stats() const { return stats_; }
+
+   private:
+	bool isUsable(const cv::Mat& grey) const
+	{
+		if (grey.empty()) return false;
+		if (grey.type() != CV_8UC1 || grey.size() != size_)
+			throw Error("image is " + sizeText(grey.size()) + (grey.type() == CV_8UC1 ? "" : " and not 8-bit grey") +
+			            " while the calibration is for " + sizeText(size_) + " grey: give the calibration of these images");
+		return hasLight(grey, options_.dark_level, options_.overexposed_share);
+	}
+
+	/** A copy, because the caller may reuse its buffer. */
+	cv::Mat conditioned(const cv::Mat& grey) const
+	{
+		cv::Mat result;
+		if (options_.clahe)
+			clahe_->apply(grey, result);
+		else
+			grey.copyTo(result);
+		return result;
+	}
+
+	/** Optical flow takes a change of exposure for motion: give the previous image the brightness of the new one. */
+	void matchBrightness(const FlowImage& current)
+	{
+		int level = std::min(previous_.levels(), current.levels()) - 1;
+		while (level > 0 && std::min(current.level(level).rows, current.level(level).cols) < kSmallestSide_px) --level;
+		stats_.gain = brightnessRatio(previous_.level(level), current.level(level));
+		if (options_.gain_compensation && std::abs(stats_.gain - 1) > kGainTolerance)
+			previous_ = FlowImage(withGain(previous_.grey(), stats_.gain), options_);
+	}
+
+	void follow(const FlowImage& current, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
+	{
+		dropUnpredictable(R_Cprev_Ccur);
+		std::vector<cv::Point2f> from, to;
+		for (const Track& t : tracks_)
+		{
+			from.push_back(t.pixel);
+			to.push_back(predicted(t, R_Cprev_Ccur).value());
+		}
+		const std::vector<FlowStatus> status = followCorners(previous_, current, from, options_, to);
+
+		std::vector<Track> followed;
+		std::vector<BearingPair> pairs;
+		for (size_t i = 0; i < tracks_.size(); ++i)
+		{
+			if (status[i] == FlowStatus::inconsistent) ++stats_.lost_forward_backward;
+			const bool inside = status[i] == FlowStatus::tracked && isInside(to[i]);
+			if (status[i] == FlowStatus::lost || (status[i] == FlowStatus::tracked && !inside)) ++stats_.lost_flow;
+			if (!inside) continue;
+			followed.push_back(trackAt(tracks_[i].observation.id, to[i]));
+			pairs.push_back({tracks_[i].observation.bearing_C, followed.back().observation.bearing_C});
+		}
+		const std::vector<bool> rigid = gate(pairs, R_Cprev_Ccur);
+		tracks_.clear();
+		for (size_t i = 0; i < followed.size(); ++i)
+		{
+			if (!rigid[i])
+				++stats_.lost_ransac;
+			else if (!detector_.allowed(followed[i].pixel) || isCrowded(followed[i].pixel))
+				++stats_.lost_crowded;
+			else
+				tracks_.push_back(followed[i]);
+		}
+		stats_.tracked = static_cast<int>(tracks_.size());
+	}
+
+	std::optional<cv::Point2f> predicted(const Track& t, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur) const
+	{
+		if (!R_Cprev_Ccur) return t.pixel;
+		const Eigen::Vector3d bearing = R_Cprev_Ccur->conjugate() * t.observation.bearing_C;
+		const std::optional<Eigen::Vector2d> pixel = camera_.project(bearing);
+		if (!pixel || !camera_.contains(*pixel)) return std::nullopt;
+		return cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()));
+	}
+
+	void dropUnpredictable(const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
+	{
+		const auto leaves = [&](const Track& t) { return !predicted(t, R_Cprev_Ccur); };
+		const auto end = std::remove_if(tracks_.begin(), tracks_.end(), leaves);
+		stats_.lost_flow += static_cast<int>(tracks_.end() - end);
+		tracks_.erase(end, tracks_.end());
+	}
+
+	bool isInside(const cv::Point2f& p) const { return camera_.contains({p.x, p.y}, options_.border_px); }
+
+	Track trackAt(uint64_t id, const cv::Point2f& pixel) const
+	{
+		const Eigen::Vector2d exact(pixel.x, pixel.y);
+		return {{id, exact, camera_.unproject(exact)}, pixel};
+	}
+
+	std::vector<bool> gate(const std::vector<BearingPair>& pairs, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur) const
+	{
+		EpipolarGateSettings settings;
+		settings.threshold_rad = options_.ransac_px / camera_.meanFocal_px();
+		settings.iterations = options_.ransac_iterations;
+		settings.seed = static_cast<uint64_t>(options_.seed);
+		if (!R_Cprev_Ccur) return agreeWithEssential(pairs, settings);
+		settings.threshold_rad = std::max(settings.threshold_rad, options_.rotation_tolerance_rad);
+		return agreeWithRotation(pairs, *R_Cprev_Ccur, settings);
+	}
+
+	/** tracks_ holds the older ones, which take precedence. */
+	bool isCrowded(const cv::Point2f& pixel) const
+	{
+		const double limit = kCrowdedShare * options_.min_distance_px;
+		return std::any_of(tracks_.begin(), tracks_.end(),
+		                   [&](const Track& t)
+		                   {
+			                   const cv::Point2f d = t.pixel - pixel;
+			                   return d.dot(d) < limit * limit;
+		                   });
+	}
+
+	void detect(const FlowImage& current)
+	{
+		std::vector<cv::Point2f> taken;
+		for (const Track& t : tracks_) taken.push_back(t.pixel);
+		const int wanted = options_.max_features - static_cast<int>(tracks_.size());
+		for (const cv::Point2f& p : detector_.detect(current.level(1), taken, wanted))
+		{
+			tracks_.push_back(trackAt(next_id_++, p));
+			++stats_.detected;
+		}
+	}
+
+	CameraModel camera_;
+	TrackerOptions options_;
+	cv::Size size_;
+	CornerDetector detector_;
+	cv::Ptr<cv::CLAHE> clahe_;
+	FlowImage previous_;
+	std::vector<Track> tracks_;  //!< by increasing id, i.e. the oldest first
+	uint64_t next_id_ = 0;
+	TrackerStats stats_;
+};
+
+FeatureTracker::FeatureTracker(const CameraModel& camera, const TrackerOptions& options, const cv::Mat& mask)
+{
+	if (camera.width_px() <= 0 || camera.height_px() <= 0 || camera.meanFocal_px() <= 0)
+		throw Error(
+		    "the camera has no calibration (size or focal length 0): record it in the images' cameraParams or give it in the "
+		    "configuration");
+	impl_ = std::make_unique<Impl>(camera, options, mask);
+}
+FeatureTracker::~FeatureTracker() = default;
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
+
+FeatureFrame FeatureTracker::track(int64_t t_ns, const cv::Mat& grey, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
+{
+	return impl_->track(t_ns, grey, R_Cprev_Ccur);
+}
+
+void FeatureTracker::reset()
+{
+	impl_->reset();
+}
+
+const TrackerStats& FeatureTracker::stats() const
+{
+	return impl_->stats();
+}
+}  // namespace viwo
