@@ -9,6 +9,9 @@ namespace viwo
 namespace
 {
 constexpr int kBlock_px = 5;  // of the half-size image
+constexpr int kRefineIterations = 10;
+constexpr double kRefineEpsilon_px = 0.02;
+constexpr float kMaxRefine_px = 6;
 
 bool isFree(const cv::Point2f& pixel, const std::vector<cv::Point2f>& taken, double distance_px)
 {
@@ -93,5 +96,19 @@ std::vector<cv::Point2f> CornerDetector::detect(const cv::Mat& half_size_grey, c
 	take(true);
 	take(false);
 	return chosen;
+}
+
+void CornerDetector::refine(const cv::Mat& grey, std::vector<cv::Point2f>& corners) const
+{
+	if (corners.empty()) return;
+	const int half = options_.window_px / 2;
+	std::vector<cv::Point2f> refined = corners;
+	cv::cornerSubPix(grey, refined, cv::Size(half, half), cv::Size(-1, -1),
+	                 cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kRefineIterations, kRefineEpsilon_px));
+	for (size_t i = 0; i < corners.size(); ++i)
+	{
+		const cv::Point2f move = refined[i] - corners[i];
+		if (move.dot(move) < kMaxRefine_px * kMaxRefine_px && allowed(refined[i])) corners[i] = refined[i];
+	}
 }
 }  // namespace viwo

@@ -16,6 +16,12 @@ class CornerDetector
 	/** @param mask as of FeatureTracker, may be empty. */
 	CornerDetector(cv::Size image_size, const TrackerOptions& options, const cv::Mat& mask);
 
+	/** Moves corners to where the gradients of the optical flow's window meet (Foerstner's point; at most a few pixels). Seen from there a
+	 * change of scale displaces the window by nothing, whereas off it every approach or retreat pulls the track along, and the pull adds
+	 * up.
+	 */
+	void refine(const cv::Mat& grey, std::vector<cv::Point2f>& corners) const;
+
 	/** Up to `wanted` new corners (full-size pixels), none nearer than min_distance_px to one of `taken` or to each other; first an equal
 	 * share for each cell of the grid, then the best of the rest wherever they are.
 	 */

@@ -11,7 +11,7 @@ namespace viwo
 namespace
 {
 constexpr size_t kMinSupport = 5;
-constexpr double kMinSupportShare = 0.6;
+constexpr double kMinSupportShare = 0.4;
 constexpr size_t kMinPairsForEssential = 8;
 constexpr double kMinForward = 0.17;  // cos of 80 degrees
 

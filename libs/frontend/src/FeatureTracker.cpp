@@ -212,7 +212,9 @@ class FeatureTracker::Impl
 		std::vector<cv::Point2f> taken;
 		for (const Track& t : tracks_) taken.push_back(t.pixel);
 		const int wanted = options_.max_features - static_cast<int>(tracks_.size());
-		for (const cv::Point2f& p : detector_.detect(current.level(1), taken, wanted))
+		std::vector<cv::Point2f> fresh = detector_.detect(current.level(1), taken, wanted);
+		detector_.refine(current.grey(), fresh);
+		for (const cv::Point2f& p : fresh)
 		{
 			tracks_.push_back(trackAt(next_id_++, p));
 			++stats_.detected;
