@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace viwo
+{
+/** A table of results: the first column to the left, numbers to the right, units in the header. */
+class Table
+{
+   public:
+	struct Column
+	{
+		std::string name;
+		std::string unit;   //!< empty for none
+		bool left = false;  //!< text to the left
+	};
+
+	explicit Table(std::vector<Column> columns);
+
+	/** @pre as many cells as columns. */
+	void addRow(std::vector<std::string> cells);
+
+	/** Aligned columns, two spaces apart, units in a second header line, one newline at the end of each line. */
+	std::string toText() const;
+	/** GitHub's Markdown, units in the header in parentheses. */
+	std::string toMarkdown() const;
+
+   private:
+	std::vector<Column> columns_;
+	std::vector<std::vector<std::string>> rows_;
+};
+
+/** Fixed decimals; "-" for NaN. */
+std::string fixed(double value, int decimals);
+}  // namespace viwo

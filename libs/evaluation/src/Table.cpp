@@ -1,0 +1,96 @@
+#include <viwo/evaluation/Table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace viwo
+{
+namespace
+{
+/** Characters as a terminal counts them: continuation bytes of UTF-8 have no width. */
+size_t widthOf(const std::string& text)
+{
+	return static_cast<size_t>(
+	    std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, size_t width, bool left)
+{
+	const std::string blanks(width - std::min(width, widthOf(text)), ' ');
+	return left ? text + blanks : blanks + text;
+}
+
+std::string line(const std::vector<std::string>& cells, const std::vector<size_t>& widths, const std::vector<Table::Column>& columns)
+{
+	std::string text;
+	for (size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : "  ") + padded(cells[i], widths[i], columns[i].left);
+	text.erase(text.find_last_not_of(' ') + 1);
+	return text + "\n";
+}
+
+std::string escaped(const std::string& text)
+{
+	std::string out;
+	for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+	return out;
+}
+}  // namespace
+
+Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+void Table::addRow(std::vector<std::string> cells)
+{
+	if (cells.size() != columns_.size()) throw std::invalid_argument("a row needs as many cells as the table has columns");
+	rows_.push_back(std::move(cells));
+}
+
+std::string Table::toText() const
+{
+	std::vector<std::string> names, units;
+	std::vector<size_t> widths;
+	for (const Column& column : columns_)
+	{
+		names.push_back(column.name);
+		units.push_back(column.unit);
+		widths.push_back(std::max(widthOf(column.name), widthOf(column.unit)));
+	}
+	for (const auto& row : rows_)
+		for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], widthOf(row[i]));
+
+	size_t total = 2 * (columns_.size() - 1);
+	for (const size_t width : widths) total += width;
+	std::string text = line(names, widths, columns_);
+	if (std::any_of(units.begin(), units.end(), [](const std::string& u) { return !u.empty(); })) text += line(units, widths, columns_);
+	text += std::string(total, '-') + "\n";
+	for (const auto& row : rows_) text += line(row, widths, columns_);
+	return text;
+}
+
+std::string Table::toMarkdown() const
+{
+	std::string header = "|", rule = "|";
+	for (const Column& column : columns_)
+	{
+		header += " " + escaped(column.name) + (column.unit.empty() ? "" : " (" + escaped(column.unit) + ")") + " |";
+		rule += column.left ? "---|" : "---:|";
+	}
+	std::string text = header + "\n" + rule + "\n";
+	for (const auto& row : rows_)
+	{
+		text += "|";
+		for (const std::string& cell : row) text += " " + escaped(cell) + " |";
+		text += "\n";
+	}
+	return text;
+}
+
+std::string fixed(double value, int decimals)
+{
+	if (std::isnan(value)) return "-";
+	char text[64];
+	std::snprintf(text, sizeof text, "%.*f", decimals, value);
+	return text;
+}
+}  // namespace viwo
