@@ -13,7 +13,7 @@ namespace viwo
 {
 namespace
 {
-/** Stamps with 9 decimals of Unix time pass through a double with a quarter of a microsecond. */
+/** Other programs may write Unix time through a double, which is good to a quarter of a microsecond. */
 constexpr int64_t kSameStamp_ns = 1000;
 
 using Vector4 = Eigen::Vector4d;  // x y z yaw

@@ -1,8 +1,7 @@
 #include <viwo/core/Error.h>
-#include <viwo/core/Time.h>
+#include <viwo/core/TimeText.h>
 #include <viwo/evaluation/Consistency.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -56,7 +55,7 @@ class CovarianceReader
 	}
 
    private:
-	[[noreturn]] void fail(const std::string& what) const { throw Error(path_ + ": line " + std::to_string(line_number_) + ": " + what); }
+	[[noreturn]] void fail(const std::string& what) const { throw Error(path_ + ":" + std::to_string(line_number_) + ": " + what); }
 
 	double number(const std::string& cell) const
 	{
@@ -70,9 +69,9 @@ class CovarianceReader
 	void append(const std::vector<std::string>& cells)
 	{
 		StampedCovariance entry;
-		const double t_s = number(cells[0]);
-		if (!std::isfinite(t_s)) fail("no time stamp");
-		entry.t_ns = nanoseconds(t_s);
+		const auto t_ns = parseSeconds(cells[0]);
+		if (!t_ns) fail("'" + cells[0] + "' is not a time in seconds");
+		entry.t_ns = *t_ns;
 		if (!entries_.empty() && entry.t_ns <= entries_.back().t_ns) fail("time stamps do not increase");
 		size_t cell = 1;
 		for (int row = 0; row < 6; ++row)

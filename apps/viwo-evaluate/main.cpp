@@ -1,0 +1,123 @@
+#include <viwo/app/Program.h>
+#include <viwo/evaluation/Report.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+
+using namespace viwo;
+
+namespace
+{
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+struct Arguments
+{
+	std::string reference;
+	std::vector<std::string> estimates;
+	std::string alignment = "se3";
+	std::string json;
+	bool nees = false;
+	std::vector<std::string> covariances;
+	double max_ate_m = kNoLimit;
+	double min_coverage = 0;
+	EvaluationOptions options;
+};
+
+void declare(CLI::App& cli, Arguments& a)
+{
+	cli.add_option("-r,--reference", a.reference, "Reference trajectory (TUM)")->required();
+	cli.add_option("-e,--estimate", a.estimates, "Estimated trajectory (TUM); may be given several times")->required();
+	cli.add_option("--align", a.alignment, "What is taken out before comparing: se3, yaw (z rotation and shift), none or sim3 (with scale)")
+	    ->check(CLI::IsMember({"se3", "yaw", "none", "sim3"}))
+	    ->capture_default_str();
+	cli.add_option("--json", a.json, "Write the figures to this file too");
+	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
+	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
+	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(CLI::NonNegativeNumber);
+	cli.add_option("--min-coverage", a.min_coverage, "Exit with 1 when the coverage of an estimate is below, 0 to 1")
+	    ->check(CLI::Range(0.0, 1.0));
+	cli.add_option("--max-gap", a.options.max_gap_s, "Longest gap of the reference to interpolate across, s")
+	    ->check(CLI::PositiveNumber)
+	    ->capture_default_str();
+	cli.footer(
+	    "Examples:\n"
+	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum\n"
+	    "  viwo-evaluate -r truth.tum -e wheel/trajectory.tum -e viwo/trajectory.tum --json errors.json\n"
+	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum --max-ate 0.05 --min-coverage 0.97 --nees\n"
+	    "Exit status: 0 done, 1 failed or over a limit, 2 bad usage.");
+}
+
+EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, size_t index)
+{
+	EstimateReport report;
+	report.name = a.estimates[index];
+	const Trajectory estimate = Trajectory::loadTum(report.name);
+	try
+	{
+		report.errors = evaluate(reference, estimate, a.options);
+	}
+	catch (const Error& e)
+	{
+		throw Error(report.name + " against " + a.reference + ": " + e.what());
+	}
+	if (a.nees)
+	{
+		const std::string csv = a.covariances.empty()
+		                            ? std::filesystem::path(report.name).replace_filename("trajectory_covariance.csv").string()
+		                            : a.covariances[index];
+		report.consistency = consistency(reference, estimate, loadCovariances(csv), a.options.max_gap_s);
+		if (report.consistency->pose.poses == 0) throw Error(csv + ": no usable covariance at the stamps of " + report.name);
+	}
+	return report;
+}
+
+/** One line for each limit that is not kept. */
+bool withinLimits(const Arguments& a, const std::vector<EstimateReport>& reports)
+{
+	bool within = true;
+	for (const EstimateReport& r : reports)
+	{
+		if (r.errors.ate_xyz_m > a.max_ate_m)
+		{
+			std::fprintf(stderr, "viwo-evaluate: %s: ATE %.4f m is over the limit of %g m\n", r.name.c_str(), r.errors.ate_xyz_m,
+			             a.max_ate_m);
+			within = false;
+		}
+		if (r.errors.coverage < a.min_coverage)
+		{
+			std::fprintf(stderr, "viwo-evaluate: %s: coverage %.4f is under the limit of %g\n", r.name.c_str(), r.errors.coverage,
+			             a.min_coverage);
+			within = false;
+		}
+	}
+	return within;
+}
+
+int evaluateAll(Arguments& a)
+{
+	a.options.alignment = alignmentFromString(a.alignment);
+	if (!a.covariances.empty()) a.nees = true;
+	if (!a.covariances.empty() && a.covariances.size() != a.estimates.size())
+		throw app::UsageError(std::to_string(a.covariances.size()) + " covariance files for " + std::to_string(a.estimates.size()) +
+		                      " estimates");
+
+	const Trajectory reference = Trajectory::loadTum(a.reference);
+	std::vector<EstimateReport> reports;
+	for (size_t i = 0; i < a.estimates.size(); ++i) reports.push_back(evaluateFile(a, reference, i));
+
+	std::cout << toTable(reports, a.options) << std::flush;
+	if (!a.json.empty()) saveJson(a.json, toJson(a.reference, a.options, reports));
+	return withinLimits(a, reports) ? 0 : 1;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+	CLI::App cli{"Absolute and relative errors of estimated trajectories against a reference", "viwo-evaluate"};
+	Arguments arguments;
+	declare(cli, arguments);
+	return app::run(cli, argc, argv, [&] { return evaluateAll(arguments); });
+}

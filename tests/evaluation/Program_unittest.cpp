@@ -1,0 +1,147 @@
+#include "RandomTrajectory.h"
+#include "RunProgram.h"
+
+#include <viwo/evaluation/Json.h>
+
+#include <gtest/gtest.h>
+
+using namespace viwo;
+using namespace viwo::test;
+
+/** viwo-evaluate as a user runs it. */
+class EvaluateProgram : public ::testing::Test
+{
+   protected:
+	void SetUp() override
+	{
+		reference_ = windingDrive(50, 30);
+		reference_.saveTum(folder_ / "ref.tum");
+		const Pose3 T(Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ())), Eigen::Vector3d(1, 2, 3));
+		transformed(reference_, [&](const Pose3& pose) { return T * pose; }).saveTum(folder_ / "moved.tum");
+		transformed(reference_, [&](Pose3 pose) { return pose.p *= 1.1, pose; }).saveTum(folder_ / "scaled.tum");
+	}
+
+	static ProgramResult run(const std::vector<std::string>& arguments)
+	{
+		return runProgram(VIWO_BINARY_DIR "/bin/viwo-evaluate", arguments);
+	}
+
+	/** Expects a failure told in one line that holds `text`. */
+	void expectFailure(const std::vector<std::string>& arguments, int status, const std::string& text)
+	{
+		const ProgramResult result = run(arguments);
+		EXPECT_EQ(result.status, status) << result.err;
+		EXPECT_EQ(result.errorLines(), 1u) << result.err;
+		EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+		EXPECT_EQ(result.out, "");
+	}
+
+	TemporaryFolder folder_;
+	Trajectory reference_;
+};
+
+TEST_F(EvaluateProgram, AlignsAndWritesJson)
+{
+	const ProgramResult result =
+	    run({"-r", folder_ / "ref.tum", "-e", folder_ / "moved.tum", "--json", folder_ / "e.json", "--max-ate", "1e-6"});
+	EXPECT_EQ(result.status, 0) << result.err;
+	EXPECT_EQ(result.err, "");
+	const Json json = loadJson(folder_ / "e.json");
+	EXPECT_LT(json["ate_xyz_m"].get<double>(), 1e-7);
+	EXPECT_LT(json["yaw_rmse_deg"].get<double>(), 1e-5);
+	EXPECT_EQ(json["matched"], reference_.size());
+	EXPECT_NEAR(json["coverage"].get<double>(), 1, 1e-9);
+	EXPECT_NEAR(json["length_m"].get<double>(), reference_.length_m(), 1e-4);
+}
+
+TEST_F(EvaluateProgram, SeveralEstimates)
+{
+	const ProgramResult result = run({"-r", folder_ / "ref.tum", "-e", folder_ / "moved.tum", "-e", folder_ / "scaled.tum", "--align",
+	                                  "none", "--json", folder_ / "e.json"});
+	EXPECT_EQ(result.status, 0) << result.err;
+	EXPECT_NE(result.out.find("moved.tum"), std::string::npos);
+	EXPECT_NE(result.out.find("scaled.tum"), std::string::npos);
+	const Json json = loadJson(folder_ / "e.json");
+	ASSERT_EQ(json["estimates"].size(), 2u);
+	EXPECT_GT(json["estimates"][0]["ate_xyz_m"].get<double>(), 3);
+	EXPECT_NEAR(json["estimates"][1]["rpe_trans_percent"].get<double>(), 10, 1.5) << "chord against arc";
+}
+
+TEST_F(EvaluateProgram, Sim3TakesOutScale)
+{
+	run({"-r", folder_ / "ref.tum", "-e", folder_ / "scaled.tum", "--align", "sim3", "--json", folder_ / "e.json"});
+	EXPECT_NEAR(loadJson(folder_ / "e.json")["scale"].get<double>(), 1 / 1.1, 1e-6);
+}
+
+TEST_F(EvaluateProgram, ExitStatusTellsOfLimits)
+{
+	const ProgramResult over = run({"-r", folder_ / "ref.tum", "-e", folder_ / "scaled.tum", "--max-ate", "0.01"});
+	EXPECT_EQ(over.status, 1);
+	EXPECT_EQ(over.errorLines(), 1u) << over.err;
+	EXPECT_NE(over.err.find("over the limit of 0.01 m"), std::string::npos);
+	EXPECT_NE(over.out.find("scaled.tum"), std::string::npos) << "the table is printed all the same";
+
+	windingDrive(10, 10).saveTum(folder_ / "short.tum");
+	EXPECT_EQ(run({"-r", folder_ / "ref.tum", "-e", folder_ / "short.tum"}).status, 0);
+	EXPECT_EQ(run({"-r", folder_ / "ref.tum", "-e", folder_ / "short.tum", "--min-coverage", "0.97"}).status, 1);
+}
+
+TEST_F(EvaluateProgram, BadInputsAreOneLine)
+{
+	const std::string ref = folder_ / "ref.tum", est = folder_ / "moved.tum";
+	expectFailure({"-r", folder_ / "absent.tum", "-e", est}, 1, "absent.tum");
+	expectFailure({"-r", ref, "-e", folder_.write("broken.tum", "1 2 3\n")}, 1, "broken.tum:1");
+	expectFailure({"-r", ref, "-e", folder_.write("double.tum", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n")}, 1, "double.tum:2");
+	expectFailure({"-r", ref, "-e", folder_.write("other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n")}, 1, "no overlap in time");
+	expectFailure({"-r", ref, "-e", folder_.write("single.tum", "1700000001 0 0 0 0 0 0 1\n")}, 1, "fewer than two poses");
+	expectFailure({"-r", ref, "-e", est, "--nees"}, 1, "trajectory_covariance.csv");
+}
+
+TEST_F(EvaluateProgram, BadUsageIsStatusTwo)
+{
+	const std::string ref = folder_ / "ref.tum", est = folder_ / "moved.tum";
+	expectFailure({"-e", est}, 2, "--reference");
+	expectFailure({"-r", ref, "-e", est, "--align", "so3"}, 2, "so3");
+	expectFailure({"-r", ref, "-e", est, "--max-gap", "-1"}, 2, "--max-gap");
+	expectFailure({"-r", ref, "-e", est, "--no-such-option"}, 2, "--no-such-option");
+	expectFailure({"-r", ref, "-e", est, "--covariance", "a.csv", "--covariance", "b.csv"}, 2, "2 covariance files for 1 estimates");
+}
+
+TEST_F(EvaluateProgram, HelpAndVersion)
+{
+	const ProgramResult help = run({"--help"});
+	EXPECT_EQ(help.status, 0);
+	EXPECT_NE(help.out.find("Examples:"), std::string::npos);
+	EXPECT_NE(help.out.find("--quiet"), std::string::npos);
+	const ProgramResult version = run({"--version"});
+	EXPECT_EQ(version.status, 0);
+	EXPECT_EQ(version.out.rfind("viwo-evaluate (viwo) ", 0), 0u) << version.out;
+}
+
+TEST_F(EvaluateProgram, NeesOfAnHonestFile)
+{
+	std::string csv = "# frame: O relative to the first pose\nt_s";
+	for (int i = 0; i < 21; ++i) csv += ",c" + std::to_string(i);
+	csv += ",flag\n";
+	std::mt19937_64 random(5);
+	Trajectory noisy;
+	for (const StampedPose& pose : reference_.poses())
+	{
+		Pose3 T = pose.T;
+		if (!noisy.empty()) T.p += randomVector(random, 0.02);
+		noisy.push_back({pose.t_ns, T});
+		char stamp[40];
+		std::snprintf(stamp, sizeof stamp, "%lld.%09lld", static_cast<long long>(pose.t_ns / 1000000000),
+		              static_cast<long long>(pose.t_ns % 1000000000));
+		csv += stamp;
+		for (int r = 0; r < 6; ++r)
+			for (int c = r; c < 6; ++c) csv += r == c ? ",4e-4" : ",0";
+		csv += ",tracking\n";
+	}
+	noisy.saveTum(folder_ / "trajectory.tum");
+	folder_.write("trajectory_covariance.csv", csv);
+	const ProgramResult result = run({"-r", folder_ / "ref.tum", "-e", folder_ / "trajectory.tum", "--nees", "--json", folder_ / "e.json"});
+	EXPECT_EQ(result.status, 0) << result.err;
+	EXPECT_NEAR(loadJson(folder_ / "e.json")["anees_position"].get<double>(), 1, 0.1);
+	EXPECT_NE(result.out.find("ANEES"), std::string::npos);
+}

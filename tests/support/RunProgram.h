@@ -1,0 +1,48 @@
+#pragma once
+
+#include "TemporaryFolder.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace viwo::test
+{
+struct ProgramResult
+{
+	int status = -1;  //!< exit status; 128 + signal when killed
+	std::string out, err;
+
+	/** Lines of stderr. */
+	size_t errorLines() const
+	{
+		size_t n = 0;
+		for (const char c : err) n += c == '\n';
+		return n;
+	}
+};
+
+inline std::string quoted(const std::string& word)
+{
+	std::string text = "'";
+	for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+	return text + "'";
+}
+
+/** Runs a program to its end, without a terminal. @param environment e.g. "VIWO_SHARE=/x", put before the command. */
+inline ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments, const std::string& environment = {})
+{
+	const TemporaryFolder folder;
+	std::string command = environment + " " + quoted(program);
+	for (const auto& argument : arguments) command += " " + quoted(argument);
+	command += " </dev/null >" + quoted(folder / "out") + " 2>" + quoted(folder / "err");
+	const int raw = std::system(command.c_str());
+	ProgramResult result;
+	result.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
+	result.out = readFile(folder / "out");
+	result.err = readFile(folder / "err");
+	return result;
+}
+}  // namespace viwo::test
