@@ -1,0 +1,87 @@
+#pragma once
+
+#include <viwo/core/ImuSample.h>
+#include <viwo/core/WheelSample.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "WheelPreintegration.h"
+
+namespace viwo
+{
+/** IMU samples in order of time, cut at image times on request. Between samples a signal is linear. */
+class ImuBuffer
+{
+   public:
+	/** @return false, and the sample is not taken, where it is not later than the latest. */
+	bool add(const ImuSample& sample);
+
+	/** Whether t_ns lies between the first and the latest sample, ends included. */
+	bool covers(int64_t t_ns) const;
+
+	/** Samples over [t_begin_ns, t_end_ns], the first and the last exactly at its ends (interpolated where no sample is).
+	 *  Nothing where the interval is empty, not covered, or two neighbouring samples in use are more than max_gap_s apart.
+	 */
+	std::optional<std::vector<ImuSample>> span(int64_t t_begin_ns, int64_t t_end_ns, double max_gap_s) const;
+
+	/** Forgets what is not needed for t_ns and later: the latest sample at or before t_ns stays. */
+	void dropBefore(int64_t t_ns);
+
+	bool empty() const { return samples_.empty(); }
+	/** Smallest int64_t when empty. */
+	int64_t latest_ns() const;
+
+	/** Mean over time of the part of [t_begin_ns, t_end_ns] that is covered; zero when none is. B's axes; rad/s, m/s^2 (raw: biases,
+	 * gravity in it). */
+	Eigen::Vector3d meanGyro(int64_t t_begin_ns, int64_t t_end_ns) const { return mean(t_begin_ns, t_end_ns).gyro_rad_s; }
+	Eigen::Vector3d meanAcc(int64_t t_begin_ns, int64_t t_end_ns) const { return mean(t_begin_ns, t_end_ns).acc_m_s2; }
+
+   private:
+	ImuSample at(int64_t t_ns) const;
+	ImuSample mean(int64_t t_begin_ns, int64_t t_end_ns) const;
+
+	std::deque<ImuSample> samples_;
+};
+
+/** Wheel samples in order of time, cut at image times on request. */
+class WheelBuffer
+{
+   public:
+	/** What the speeds of a sample are. */
+	enum class Meaning
+	{
+		mean_over_past_interval,  //!< travel since the sample before, over the time since then (encoder ticks)
+		instantaneous             //!< speed at the stamp; linear between stamps
+	};
+
+	explicit WheelBuffer(Meaning meaning = Meaning::mean_over_past_interval) : meaning_(meaning) {}
+
+	/** @return false, and the sample is not taken, where it is not later than the latest. */
+	bool add(const WheelSample& sample);
+
+	/** Whether t_ns lies between the first and the latest sample, ends included (the first only begins an interval). */
+	bool covers(int64_t t_ns) const;
+
+	/** The pieces of the samples' intervals that make up [t_begin_ns, t_end_ns], in order; conserves wheel travel.
+	 *  Nothing where the interval is empty, not covered, or two neighbouring samples in use are more than max_gap_s apart.
+	 */
+	std::optional<std::vector<WheelSegment>> segments(int64_t t_begin_ns, int64_t t_end_ns, double max_gap_s) const;
+
+	/** Forgets what is not needed for t_ns and later: the latest sample at or before t_ns stays. */
+	void dropBefore(int64_t t_ns);
+
+	bool empty() const { return samples_.empty(); }
+	/** Smallest int64_t when empty. */
+	int64_t latest_ns() const;
+
+   private:
+	WheelSegment piece(const WheelSample& before, const WheelSample& after, int64_t t_begin_ns, int64_t t_end_ns) const;
+
+	Meaning meaning_;
+	std::deque<WheelSample> samples_;
+};
+}  // namespace viwo
