@@ -1,0 +1,111 @@
+#!/bin/bash
+# The project's verbs: ./run.sh demo | test | build | accuracy | format   (./run.sh without a word explains them)
+set -euo pipefail
+cd "$(dirname "$0")"
+
+build_dir=${VIWO_BUILD_DIR:-build}
+jobs=${VIWO_JOBS:-$(nproc)}
+packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libopencv-dev nlohmann-json3-dev libcli11-dev libyaml-cpp-dev libgtest-dev
+	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-system-dev mrpt-apps)
+
+usage() {
+	cat <<'TEXT'
+usage: ./run.sh VERB
+  demo      build, run three modes on the sample rawlog, and print a table of their errors
+  test      build and run all tests
+  build     build the programs into build/bin
+  accuracy  measure the accuracy table (long); writes build/accuracy/
+  format    clang-format on all sources
+Each installs what is missing from Debian first. VIWO_JOBS sets the number of compile jobs, VIWO_BUILD_DIR the build folder.
+TEXT
+}
+
+fail() {
+	echo "run.sh: error: $*" >&2
+	exit 1
+}
+
+install_missing() {
+	local missing=() package
+	for package in "$@"; do
+		dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+	done
+	[ ${#missing[@]} -eq 0 ] && return
+	local as_root=()
+	if [ "$(id -u)" -ne 0 ]; then
+		command -v sudo >/dev/null || fail "these packages are missing: ${missing[*]}; install them as root (apt-get install ...)"
+		as_root=(sudo)
+	fi
+	echo "Installing ${missing[*]}"
+	"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q
+	"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+# configure DIR [cmake options]
+configure() {
+	local dir=$1
+	shift
+	local generator=()
+	if [ ! -e "$dir/CMakeCache.txt" ] && command -v ninja >/dev/null; then generator=(-G Ninja); fi
+	cmake -S . -B "$dir" "${generator[@]}" "$@" >"$dir.log" 2>&1 || {
+		cat "$dir.log" >&2
+		fail "cmake could not configure $dir"
+	}
+	rm -f "$dir.log"
+}
+
+build() {
+	install_missing "${packages[@]}"
+	configure "$build_dir" -DCMAKE_BUILD_TYPE=Release "$@"
+	cmake --build "$build_dir" -j "$jobs"
+}
+
+demo() {
+	build
+	local bin=$build_dir/bin out=$build_dir/demo mode estimates=()
+	mkdir -p "$out"
+	for mode in wheel vio viwo; do
+		echo
+		echo "== viwo-odometry --mode $mode"
+		"$bin/viwo-odometry" -i rawlogs/sample.rawlog -o "$out/$mode" --mode "$mode"
+		estimates+=(-e "$out/$mode/trajectory.tum")
+	done
+	echo
+	echo "Written:"
+	ls -1 "$out"/{wheel,vio,viwo}/* | sed 's/^/  /'
+	echo "  $out/errors.json"
+	echo
+	echo "Errors against rawlogs/sample_ground_truth.tum, after alignment of rotation and translation:"
+	"$bin/viwo-evaluate" -r rawlogs/sample_ground_truth.tum "${estimates[@]}" --json "$out/errors.json"
+}
+
+run_tests() {
+	build
+	(cd "$build_dir" && ctest --output-on-failure -j2 "$@")
+}
+
+accuracy() {
+	build
+	[ -x "$build_dir/bin/viwo_accuracy" ] || fail "$build_dir/bin/viwo_accuracy was not built"
+	"$build_dir/bin/viwo_accuracy" "$@"
+}
+
+format() {
+	install_missing clang-format
+	find apps libs tests \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i
+}
+
+verb=${1:-}
+[ $# -gt 0 ] && shift
+case $verb in
+demo) demo ;;
+test) run_tests "$@" ;;
+build) build "$@" ;;
+accuracy) accuracy "$@" ;;
+format) format ;;
+-h | --help | help) usage ;;
+*)
+	usage >&2
+	exit 2
+	;;
+esac
