@@ -1,0 +1,44 @@
+#pragma once
+
+#include "ImuPreintegration.h"
+#include "residuals/LocalCost.h"
+
+#include <Eigen/Core>
+
+namespace viwo
+{
+/** Two frames and the IMU between them (Niu et al. Eq. 18, with the rotation error written so that it vanishes at the truth, and gravity,
+ *  g_up = [0, 0, |g|], here only and not in the preintegration). Rows in StateOrder, before whitening:
+ *
+ *      r_p   = R_i^T (p_j - p_i - v_i dt + 1/2 g_up dt^2) - alpha(b_i)
+ *      r_phi = Log(gamma(b_i)^T R_i^T R_j)
+ *      r_v   = R_i^T (v_j - v_i + g_up dt) - beta(b_i)
+ *      r_b   = b_j - b_i
+ *
+ *  with, to first order in the change d of the biases since the preintegration, alpha + J_alpha d, beta + J_beta d,
+ *  gamma Exp(theta), theta = J_phi d; hence dr_phi = -J_r^-1(r_phi) Exp(r_phi)^T J_r(theta) J_phi dd.
+ *
+ *  Blocks: pose T_WB_i, motion_i (v, b_a, b_g), pose T_WB_j, motion_j. 15 residuals.
+ */
+class ImuResidual : public LocalCost
+{
+   public:
+	using Whitening = Eigen::Matrix<double, 15, 15>;
+
+	/** Copies what it needs. */
+	ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2);
+
+	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
+
+	/** The lower triangular factor that is applied to the rows. */
+	const Whitening& whiteningFactor() const { return whiten_; }
+
+   private:
+	ImuDelta delta_;
+	ImuPreintegration::BiasJacobian bias_jacobian_;
+	Eigen::Vector3d b_a_, b_g_;
+	double dt_s_;
+	Eigen::Vector3d g_up_;
+	Whitening whiten_;
+};
+}  // namespace viwo

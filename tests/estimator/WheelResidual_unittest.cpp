@@ -1,0 +1,97 @@
+#include <residuals/WheelResidual.h>
+
+#include <ConstantTwist.h>
+#include <NumericJacobian.h>
+
+namespace viwo
+{
+namespace
+{
+/** 0.5 m lever arm, B tilted against O. */
+test::ConstantTwist makeMotion(test::Random& random)
+{
+	test::ConstantTwist motion;
+	motion.T_WO0 = random.pose(0.8, 2);
+	motion.T_BO = {random.pose(0.8, 0).R, 0.5 * random.vector3(1).normalized()};
+	motion.v_m_s = 0.3;
+	motion.w_rad_s = 0.9;
+	motion.wheels = {1.01, 0.98, 0.231};
+	return motion;
+}
+
+std::vector<double> block(const WheelIntrinsics& k)
+{
+	return {k.k_left, k.k_right, k.track_m};
+}
+
+test::Blocks statesOf(const test::ConstantTwist& motion, double t0, double t1)
+{
+	return {test::block(motion.T_WB(t0)), test::block(motion.T_WB(t1)), block(motion.wheels)};
+}
+}  // namespace
+
+TEST(WheelResidual, VanishesOnAnExactArcWithLeverArm)
+{
+	test::Random random(111);
+	double worst = 0;
+	for (int i = 0; i < 10; ++i)
+	{
+		const test::ConstantTwist motion = makeMotion(random);
+		const WheelResidual cost(motion.wheelsBetween(0.2, 1.2, motion.wheels), motion.T_BO);
+		const Eigen::VectorXd r = cost.whiteningFactor().inverse() * test::residualAt(cost, statesOf(motion, 0.2, 1.2));
+		worst = std::max(worst, r.cwiseAbs().maxCoeff());
+	}
+	std::cout << "[measured] WheelResidual at the truth over 1 s, 0.5 m lever arm: " << worst << " (m, rad)\n";
+	EXPECT_LT(worst, 1e-13);
+}
+
+TEST(WheelResidual, CorrectsIntrinsicsToFirstOrder)
+{
+	test::Random random(112);
+	const test::ConstantTwist motion = makeMotion(random);
+	const auto error = [&](double part)
+	{
+		const WheelIntrinsics at{motion.wheels.k_left + part * 0.01, motion.wheels.k_right - part * 0.01,
+		                         motion.wheels.track_m + part * 0.002};
+		const WheelResidual cost(motion.wheelsBetween(0, 1, at), motion.T_BO);
+		return (cost.whiteningFactor().inverse() * test::residualAt(cost, statesOf(motion, 0, 1))).norm();
+	};
+	std::cout << "[measured] WheelResidual after the intrinsics moved by 1 %: " << error(1) << ", by 0.5 %: " << error(0.5) << "\n";
+	EXPECT_LT(error(1), 3e-3);
+	EXPECT_NEAR(error(1) / error(0.5), 4, 0.2);
+}
+
+TEST(WheelResidual, WhitensWithTheInflatedCovariance)
+{
+	test::Random random(113);
+	const test::ConstantTwist motion = makeMotion(random);
+	const WheelPreintegration preintegration = motion.wheelsBetween(0, 0.1, motion.wheels);
+	const WheelResidual::Whitening W = WheelResidual(preintegration, motion.T_BO, 9).whiteningFactor();
+	const double error = (9 * W * preintegration.covariance() * W.transpose() - WheelResidual::Whitening::Identity()).norm();
+	std::cout << "[measured] WheelResidual: whitened covariance off identity by " << error << "\n";
+	EXPECT_LT(error, 1e-10);
+}
+
+TEST(WheelResidual, Jacobians)
+{
+	test::Random random(114);
+	for (const double scale : {0.0, 1e-8, 1.0})
+	{
+		test::ConstantTwist motion = makeMotion(random);
+		motion.v_m_s *= scale;
+		motion.w_rad_s *= scale;
+		if (scale == 0) motion.T_BO = Pose3();
+		const WheelIntrinsics at{1, 1, 0.23};
+		const WheelResidual cost(motion.wheelsBetween(0, 0.5, at), motion.T_BO);
+		std::vector<test::Blocks> states = test::sampleStates(cost.shapes(), random);
+		for (test::Blocks& x : states)
+		{
+			const Eigen::Vector3d moved = Eigen::Vector3d(1, 1, 0.23) + random.vector3(0.02);
+			x[2] = test::block(moved);
+		}
+		states.push_back(statesOf(motion, 0, 0.5));
+		test::expectJacobians("WheelResidual", cost, states, cost.whiteningFactor().inverse());
+		test::expectJacobians("WheelResidual, whitened rows", cost, states);
+	}
+}
+}  // namespace viwo
