@@ -11,10 +11,16 @@ namespace viwo::sim
 namespace
 {
 constexpr int kFloorWaves = 16;
-constexpr int kVibrationWaves = 7;	// per axis
+constexpr int kVibrationWaves = 7;  // per axis
 
-double uniform(std::mt19937_64& generator, double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator); }
-double logUniform(std::mt19937_64& generator, double low, double high) { return std::exp(uniform(generator, std::log(low), std::log(high))); }
+double uniform(std::mt19937_64& generator, double low, double high)
+{
+	return std::uniform_real_distribution<double>(low, high)(generator);
+}
+double logUniform(std::mt19937_64& generator, double low, double high)
+{
+	return std::exp(uniform(generator, std::log(low), std::log(high)));
+}
 }  // namespace
 
 FloorOptions FloorOptions::flat()
@@ -33,7 +39,8 @@ VibrationOptions VibrationOptions::off()
 
 Floor::Floor(const FloorOptions& options, uint64_t seed)
 {
-	if (options.wavelength_min_m > options.wavelength_max_m) throw Error("[floor] wavelength_min_m is greater than wavelength_max_m; swap them");
+	if (options.wavelength_min_m > options.wavelength_max_m)
+		throw Error("[floor] wavelength_min_m is greater than wavelength_max_m; swap them");
 	if (options.height_rms_mm == 0) return;
 	std::mt19937_64 generator = randomSource(seed, "floor");
 	for (int i = 0; i < kFloorWaves; ++i)
@@ -41,7 +48,8 @@ Floor::Floor(const FloorOptions& options, uint64_t seed)
 		const double k_rad_m = 2 * M_PI / logUniform(generator, options.wavelength_min_m, options.wavelength_max_m);
 		const double direction_rad = uniform(generator, 0, 2 * M_PI);
 		const double amplitude_m = 1e-3 * options.height_rms_mm * std::sqrt(2.0 / kFloorWaves);
-		waves_.push_back({amplitude_m, k_rad_m * std::cos(direction_rad), k_rad_m * std::sin(direction_rad), uniform(generator, 0, 2 * M_PI)});
+		waves_.push_back(
+		    {amplitude_m, k_rad_m * std::cos(direction_rad), k_rad_m * std::sin(direction_rad), uniform(generator, 0, 2 * M_PI)});
 	}
 }
 
@@ -60,7 +68,8 @@ void Floor::at(const TimeJet& x, const TimeJet& y, TimeJet& height, TimeJet& slo
 
 Vibration::Vibration(const VibrationOptions& options, uint64_t seed) : reference_speed_m_s_(options.reference_speed_m_s)
 {
-	if (options.frequency_min_hz > options.frequency_max_hz) throw Error("[vibration] frequency_min_hz is greater than frequency_max_hz; swap them");
+	if (options.frequency_min_hz > options.frequency_max_hz)
+		throw Error("[vibration] frequency_min_hz is greater than frequency_max_hz; swap them");
 	if (options.acceleration_m_s2 == 0 && options.rate_deg_s == 0) return;
 	std::mt19937_64 generator = randomSource(seed, "vibration");
 	for (int axis = 0; axis < 6; ++axis)
@@ -69,7 +78,7 @@ Vibration::Vibration(const VibrationOptions& options, uint64_t seed) : reference
 			const double omega_rad_s = 2 * M_PI * logUniform(generator, options.frequency_min_hz, options.frequency_max_hz);
 			const double rms = std::sqrt(2.0 / kVibrationWaves);
 			const double amplitude = axis < 3 ? rms * options.acceleration_m_s2 / (omega_rad_s * omega_rad_s)
-											  : rms * options.rate_deg_s * M_PI / 180 / omega_rad_s;
+			                                  : rms * options.rate_deg_s * M_PI / 180 / omega_rad_s;
 			waves_.push_back({axis, amplitude, omega_rad_s, uniform(generator, 0, 2 * M_PI)});
 		}
 }

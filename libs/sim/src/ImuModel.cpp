@@ -43,7 +43,8 @@ class Normal
 Matrix3d sensitivity(uint64_t seed, std::string_view source, double scale_error, double misalignment_rad)
 {
 	std::mt19937_64 generator = randomSource(seed, source);
-	const Vector3d scale = uniform(generator, scale_error), a = uniform(generator, misalignment_rad), b = uniform(generator, misalignment_rad);
+	const Vector3d scale = uniform(generator, scale_error), a = uniform(generator, misalignment_rad),
+	               b = uniform(generator, misalignment_rad);
 	Matrix3d M = (Vector3d::Ones() + scale).asDiagonal();
 	M(0, 1) = a[0], M(0, 2) = a[1], M(1, 2) = a[2];
 	M(1, 0) = b[0], M(2, 0) = b[1], M(2, 1) = b[2];
@@ -92,23 +93,26 @@ void ImuModel::simulate(const Motion& motion, uint64_t seed)
 	const double misalignment_rad = options_.axis_misalignment_deg * M_PI / 180;
 	const Matrix3d M_acc = sensitivity(seed, "imu acc sensitivity", options_.acc_scale_error, misalignment_rad);
 	const Matrix3d M_gyro = sensitivity(seed, "imu gyro sensitivity", options_.gyro_scale_error, misalignment_rad);
-	Normal acc_noise(seed, "imu acc noise"), gyro_noise(seed, "imu gyro noise"), acc_walk(seed, "imu acc walk"), gyro_walk(seed, "imu gyro walk");
+	Normal acc_noise(seed, "imu acc noise"), gyro_noise(seed, "imu gyro noise"), acc_walk(seed, "imu acc walk"),
+	    gyro_walk(seed, "imu gyro walk");
 	std::mt19937_64 bias_generator = randomSource(seed, "imu start bias"), jitter_generator = randomSource(seed, "imu jitter");
 	std::uniform_real_distribution<double> jitter(-1e-3 * options_.stamp_jitter_ms, std::nextafter(1e-3 * options_.stamp_jitter_ms, 1.0));
 	Bias bias;
 	bias.acc_m_s2 = uniform(bias_generator, options_.acc_start_bias_m_s2);
 	bias.gyro_rad_s = uniform(bias_generator, options_.gyro_start_bias_rad_s);
 
-	// A sample of a white process of density sigma, averaged over one interval dt, deviates by sigma / sqrt(dt); a walk steps by sigma sqrt(dt).
+	// A sample of a white process of density sigma, averaged over one interval dt, deviates by sigma / sqrt(dt); a walk steps by sigma
+	// sqrt(dt).
 	const double root_rate = std::sqrt(options_.rate_hz);
 	for (int64_t i = 0;; ++i)
 	{
 		const double t_s = 1e-3 * options_.phase_ms + static_cast<double>(i) / options_.rate_hz;
 		if (t_s > motion.duration_s()) break;
 		ImuSample s = exactSample(motion, t_s);
-		s.acc_m_s2 = quantised(M_acc * s.acc_m_s2 + bias.acc_m_s2 + acc_noise.draw(options_.acc_noise_m_s2_sqrtHz * root_rate), options_.acc_resolution_m_s2);
-		s.gyro_rad_s =
-			quantised(M_gyro * s.gyro_rad_s + bias.gyro_rad_s + gyro_noise.draw(options_.gyro_noise_rad_s_sqrtHz * root_rate), options_.gyro_resolution_rad_s);
+		s.acc_m_s2 = quantised(M_acc * s.acc_m_s2 + bias.acc_m_s2 + acc_noise.draw(options_.acc_noise_m_s2_sqrtHz * root_rate),
+		                       options_.acc_resolution_m_s2);
+		s.gyro_rad_s = quantised(M_gyro * s.gyro_rad_s + bias.gyro_rad_s + gyro_noise.draw(options_.gyro_noise_rad_s_sqrtHz * root_rate),
+		                         options_.gyro_resolution_rad_s);
 		if (options_.stamp_jitter_ms > 0) s.t_ns += nanoseconds(jitter(jitter_generator));
 		samples_.push_back(s);
 		times_s_.push_back(t_s);
@@ -135,6 +139,7 @@ ImuModel::Bias ImuModel::biasAt(double t_s) const
 
 ImuNoise ImuModel::noise() const
 {
-	return {options_.acc_noise_m_s2_sqrtHz, options_.gyro_noise_rad_s_sqrtHz, options_.acc_walk_m_s3_sqrtHz, options_.gyro_walk_rad_s2_sqrtHz};
+	return {options_.acc_noise_m_s2_sqrtHz, options_.gyro_noise_rad_s_sqrtHz, options_.acc_walk_m_s3_sqrtHz,
+	        options_.gyro_walk_rad_s2_sqrtHz};
 }
 }  // namespace viwo::sim

@@ -86,14 +86,17 @@ void onFloor(const Place& place, const Floor& floor, RotationJet& R_WO, VectorJe
 }  // namespace
 
 Motion::Motion(const Route& route, const FloorOptions& floor, const VibrationOptions& vibration, uint64_t seed, int64_t epoch_ns)
-	: path_(std::make_unique<PlanarPath>(route)), floor_(floor, seed), vibration_(vibration, seed), epoch_ns_(epoch_ns)
+    : path_(std::make_unique<PlanarPath>(route)), floor_(floor, seed), vibration_(vibration, seed), epoch_ns_(epoch_ns)
 {
 }
 
 Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 
-double Motion::duration_s() const { return path_->duration_s(); }
+double Motion::duration_s() const
+{
+	return path_->duration_s();
+}
 
 MotionState Motion::at(double t_s) const
 {

@@ -14,7 +14,10 @@ using Kind = RouteSegment::Kind;
 /** Between nodes the speeds are analytic, so five Gauss points over this span leave less than rounding. */
 constexpr double kNodeSpan_s = 0.05;
 
-bool translates(Kind kind) { return kind == Kind::straight || kind == Kind::arc; }
+bool translates(Kind kind)
+{
+	return kind == Kind::straight || kind == Kind::arc;
+}
 
 /** Sum of a sin(2 pi t / period), its derivatives and its integral from 0. */
 struct SineSum
@@ -36,7 +39,9 @@ struct SineSum
 
 void requireFit(double hold_s, const char* what)
 {
-	if (hold_s < 0) throw Error(std::string("[route] segments: a ") + what + " is too short to reach its speed and to brake; lengthen it or raise the acceleration");
+	if (hold_s < 0)
+		throw Error(std::string("[route] segments: a ") + what +
+		            " is too short to reach its speed and to brake; lengthen it or raise the acceleration");
 }
 
 void requireSines(const std::vector<double>& amplitudes, const std::vector<double>& periods_s, const char* key)
@@ -58,7 +63,8 @@ PlanarPath::PlanarPath(const Route& route) : route_(route), end_yaw_rad_(route.s
 	{
 		const bool first = i == 0, last = i + 1 == segments.size();
 		double v_out_m_s = 0;
-		if (last && !route.final_stop) v_out_m_s = fullSpeed(segments[i]);
+		if (last && !route.final_stop)
+			v_out_m_s = fullSpeed(segments[i]);
 		else if (!last && translates(segments[i].kind) && translates(segments[i + 1].kind))
 			v_out_m_s = std::min(fullSpeed(segments[i]), fullSpeed(segments[i + 1]));
 		append(makeLeg(segments[i], v_in_m_s, v_out_m_s, first && route.initial_speed, last && !route.final_stop));
@@ -75,8 +81,8 @@ double PlanarPath::fullSpeed(const RouteSegment& segment) const
 	return 0;
 }
 
-PlanarPath::Leg PlanarPath::makeLeg(
-	const RouteSegment& segment, double v_in_m_s, double v_out_m_s, bool in_motion_at_begin, bool in_motion_at_end) const
+PlanarPath::Leg PlanarPath::makeLeg(const RouteSegment& segment, double v_in_m_s, double v_out_m_s, bool in_motion_at_begin,
+                                    bool in_motion_at_end) const
 {
 	Leg leg;
 	leg.segment = segment;
@@ -126,14 +132,18 @@ void PlanarPath::fitTurn(Leg& leg, double v_in_m_s, double v_out_m_s, bool in_mo
 	v.from = leg.v_m_s > 0 ? v_in_m_s / leg.v_m_s : w.from;
 	v.to = leg.v_m_s > 0 ? v_out_m_s / leg.v_m_s : w.to;
 	const auto rampTime = [&](double v_change, double w_change)
-	{ return SpeedRamp::kPeakSlope * std::max(leg.v_m_s * v_change / route_.acceleration_m_s2, w_rad_s * w_change / route_.yaw_acceleration_rad_s2); };
+	{
+		return SpeedRamp::kPeakSlope *
+		       std::max(leg.v_m_s * v_change / route_.acceleration_m_s2, w_rad_s * w_change / route_.yaw_acceleration_rad_s2);
+	};
 	w.up_s = rampTime(1 - v.from, 1 - w.from);
 	w.down_s = rampTime(1 - v.to, 1 - w.to);
-	w.hold_s = angle_rad / w_rad_s - w.integral();
+	const double ramps_rad = w_rad_s * w.integral();
+	w.hold_s = (angle_rad - ramps_rad) / w_rad_s;
 	if (w.hold_s < 0 && v.from == 0 && v.to == 0 && w.from == 0 && w.to == 0)
 	{
 		// From rest to rest: lower both speeds by one factor until the ramps alone make the angle.
-		const double factor = std::sqrt(angle_rad / (w_rad_s * w.integral()));
+		const double factor = std::sqrt(angle_rad / ramps_rad);
 		leg.v_m_s *= factor;
 		w_rad_s *= factor;
 		w.up_s *= factor;
@@ -153,7 +163,7 @@ void PlanarPath::fitFree(Leg& leg, bool in_motion_at_begin, bool in_motion_at_en
 	for (const double a : route_.free_speed_amplitudes) v_peak += std::abs(a);
 	for (const double a : route_.free_yaw_rate_amplitudes_rad_s) w_peak += std::abs(a);
 	const double ramp_s =
-		SpeedRamp::kPeakSlope * std::max(route_.speed_m_s * v_peak / route_.acceleration_m_s2, w_peak / route_.yaw_acceleration_rad_s2);
+	    SpeedRamp::kPeakSlope * std::max(route_.speed_m_s * v_peak / route_.acceleration_m_s2, w_peak / route_.yaw_acceleration_rad_s2);
 	SpeedRamp& ramp = leg.v_ramp;
 	ramp.from = in_motion_at_begin ? 1 : 0;
 	ramp.to = in_motion_at_end ? 1 : 0;

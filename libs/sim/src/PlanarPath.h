@@ -12,12 +12,12 @@ namespace viwo::sim
 struct PlanarState
 {
 	double x_m = 0, y_m = 0, yaw_rad = 0;
-	double v = 0, dv = 0, ddv = 0;	//!< forward speed, m/s, and derivatives
-	double w = 0, dw = 0, ddw = 0;	//!< yaw rate, rad/s, and derivatives
+	double v = 0, dv = 0, ddv = 0;  //!< forward speed, m/s, and derivatives
+	double w = 0, dw = 0, ddw = 0;  //!< yaw rate, rad/s, and derivatives
 };
 
-/** Strings the segments of a route into one motion. Speeds and heading are closed-form; the place is their integral by Gauss-Legendre quadrature
- *  between the points where a ramp begins or ends, exact to rounding.
+/** Strings the segments of a route into one motion. Speeds and heading are closed-form; the place is their integral by Gauss-Legendre
+ * quadrature between the points where a ramp begins or ends, exact to rounding.
  */
 class PlanarPath
 {
@@ -33,7 +33,7 @@ class PlanarPath
 	{
 		RouteSegment segment;
 		double begin_s = 0, yaw_begin_rad = 0;
-		double v_m_s = 0, w_rad_s = 0;	//!< at full speed
+		double v_m_s = 0, w_rad_s = 0;  //!< at full speed
 		SpeedRamp v_ramp, w_ramp;
 	};
 	struct Node

@@ -23,7 +23,8 @@ double number(std::istringstream& in, const std::string& unit, const std::string
 {
 	double value = 0;
 	std::string found_unit;
-	if (!(in >> value >> found_unit) || found_unit != unit || !std::isfinite(value)) fail(entry, "expected a number followed by '" + unit + "'");
+	if (!(in >> value >> found_unit) || found_unit != unit || !std::isfinite(value))
+		fail(entry, "expected a number followed by '" + unit + "'");
 	return value;
 }
 
@@ -55,7 +56,8 @@ RouteSegment parseSegment(const std::string& entry)
 		s.kind = word == "stand" ? RouteSegment::Kind::stand : RouteSegment::Kind::free;
 		s.duration_s = number(in, "s", entry);
 	}
-	else fail(entry, "expected straight, rotate, arc, stand or free");
+	else
+		fail(entry, "expected straight, rotate, arc, stand or free");
 	if (in >> rest) fail(entry, "nothing may follow the last unit; separate segments by commas");
 	if (s.length_m < 0 || s.radius_m < 0 || s.duration_s < 0) fail(entry, "lengths, radii and durations must not be negative");
 	if (s.kind == RouteSegment::Kind::arc && s.radius_m < 1e-3) fail(entry, "the radius must be at least 0.001 m; use rotate");
@@ -75,7 +77,8 @@ std::string withoutRepetitions(std::string text)
 		std::istringstream in(head);
 		int count = 0;
 		std::string x, rest;
-		if (!(in >> count >> x) || x != "x" || (in >> rest) || count < 1 || count > 1000) fail(head, "expected 'N x (segments)', N from 1 to 1000");
+		if (!(in >> count >> x) || x != "x" || (in >> rest) || count < 1 || count > 1000)
+			fail(head, "expected 'N x (segments)', N from 1 to 1000");
 		const std::string body = text.substr(open + 1, close - open - 1);
 		std::string repeated = body;
 		for (int i = 1; i < count; ++i) repeated += "," + body;
@@ -88,7 +91,7 @@ std::string withoutRepetitions(std::string text)
 std::vector<RouteSegment> Route::parsedSegments() const
 {
 	std::vector<RouteSegment> result;
-	std::istringstream in(withoutRepetitions(segments));
+	std::istringstream in(withoutRepetitions(segments) + ",");  // getline would pass over an empty entry at the end
 	for (std::string entry; std::getline(in, entry, ',');)
 	{
 		entry = trimmed(entry);

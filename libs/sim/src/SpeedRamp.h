@@ -4,7 +4,8 @@
 
 namespace viwo::sim
 {
-/** A factor that goes from `from` to 1, holds, and goes to `to`, by quintic smoothsteps: twice continuously differentiable, with its integral. */
+/** A factor that goes from `from` to 1, holds, and goes to `to`, by quintic smoothsteps: twice continuously differentiable, with its
+ * integral. */
 struct SpeedRamp
 {
 	double up_s = 0, hold_s = 0, down_s = 0;

@@ -15,8 +15,12 @@ class Tracker
 {
    public:
 	Tracker(const Calibration& calibration, const std::vector<Vector3d>& points_W, const TrackOptions& options, uint64_t seed)
-		: calibration_(calibration), points_W_(points_W), options_(options), tracks_(points_W.size()), noise_generator_(randomSource(seed, "track noise")),
-		  choice_generator_(randomSource(seed, "track choice"))
+	    : calibration_(calibration),
+	      points_W_(points_W),
+	      options_(options),
+	      tracks_(points_W.size()),
+	      noise_generator_(randomSource(seed, "track noise")),
+	      choice_generator_(randomSource(seed, "track choice"))
 	{
 		order_.resize(points_W.size());
 		for (size_t i = 0; i < order_.size(); ++i) order_[i] = i;
@@ -79,7 +83,8 @@ class Tracker
 		feature.id = track.id;
 		feature.pixel = exact_pixel;
 		if (options_.outlier_probability > 0 && uniform_(noise_generator_) < options_.outlier_probability)
-			feature.pixel = {uniform_(noise_generator_) * (calibration_.camera.width_px() - 1), uniform_(noise_generator_) * (calibration_.camera.height_px() - 1)};
+			feature.pixel = {uniform_(noise_generator_) * (calibration_.camera.width_px() - 1),
+			                 uniform_(noise_generator_) * (calibration_.camera.height_px() - 1)};
 		for (int i = 0; i < 2; ++i) feature.pixel[i] += options_.pixel_noise_px * normal_(noise_generator_);
 		feature.bearing_C = calibration_.camera.unproject(feature.pixel);
 		return feature;
@@ -116,8 +121,8 @@ std::vector<Vector3d> randomRoomPoints(const Vector3d& min_W, const Vector3d& ma
 	return points;
 }
 
-std::vector<FeatureFrame> makeFeatureFrames(
-	const Motion& motion, const Calibration& calibration, const std::vector<Vector3d>& points_W, const TrackOptions& options, uint64_t seed)
+std::vector<FeatureFrame> makeFeatureFrames(const Motion& motion, const Calibration& calibration, const std::vector<Vector3d>& points_W,
+                                            const TrackOptions& options, uint64_t seed)
 {
 	Tracker tracker(calibration, points_W, options, seed);
 	std::vector<FeatureFrame> frames;
@@ -132,8 +137,8 @@ std::vector<FeatureFrame> makeFeatureFrames(
 	return frames;
 }
 
-std::vector<FeatureFrame> makeFeatureFrames(
-	const Motion& motion, const Calibration& calibration, const std::vector<Vector3d>& points_W, double pixel_noise_px, uint64_t seed)
+std::vector<FeatureFrame> makeFeatureFrames(const Motion& motion, const Calibration& calibration, const std::vector<Vector3d>& points_W,
+                                            double pixel_noise_px, uint64_t seed)
 {
 	TrackOptions options;
 	options.pixel_noise_px = pixel_noise_px;

@@ -12,20 +12,41 @@ struct TimeJet
 	double f = 0, d = 0, dd = 0;
 
 	TimeJet() = default;
-	TimeJet(double value) : f(value) {}	 // NOLINT: constants mix freely with jets
+	TimeJet(double value) : f(value) {}  // NOLINT: constants mix freely with jets
 	TimeJet(double value, double rate, double acceleration) : f(value), d(rate), dd(acceleration) {}
 };
 
-inline TimeJet operator+(const TimeJet& a, const TimeJet& b) { return {a.f + b.f, a.d + b.d, a.dd + b.dd}; }
-inline TimeJet operator-(const TimeJet& a, const TimeJet& b) { return {a.f - b.f, a.d - b.d, a.dd - b.dd}; }
-inline TimeJet operator-(const TimeJet& a) { return {-a.f, -a.d, -a.dd}; }
-inline TimeJet operator*(const TimeJet& a, const TimeJet& b) { return {a.f * b.f, a.d * b.f + a.f * b.d, a.dd * b.f + 2 * a.d * b.d + a.f * b.dd}; }
+inline TimeJet operator+(const TimeJet& a, const TimeJet& b)
+{
+	return {a.f + b.f, a.d + b.d, a.dd + b.dd};
+}
+inline TimeJet operator-(const TimeJet& a, const TimeJet& b)
+{
+	return {a.f - b.f, a.d - b.d, a.dd - b.dd};
+}
+inline TimeJet operator-(const TimeJet& a)
+{
+	return {-a.f, -a.d, -a.dd};
+}
+inline TimeJet operator*(const TimeJet& a, const TimeJet& b)
+{
+	return {a.f * b.f, a.d * b.f + a.f * b.d, a.dd * b.f + 2 * a.d * b.d + a.f * b.dd};
+}
 
 /** g(a), from g, g' and g'' at a.f. */
-inline TimeJet chain(const TimeJet& a, double g, double g1, double g2) { return {g, g1 * a.d, g2 * a.d * a.d + g1 * a.dd}; }
+inline TimeJet chain(const TimeJet& a, double g, double g1, double g2)
+{
+	return {g, g1 * a.d, g2 * a.d * a.d + g1 * a.dd};
+}
 
-inline TimeJet sin(const TimeJet& a) { return chain(a, std::sin(a.f), std::cos(a.f), -std::sin(a.f)); }
-inline TimeJet cos(const TimeJet& a) { return chain(a, std::cos(a.f), -std::sin(a.f), -std::cos(a.f)); }
+inline TimeJet sin(const TimeJet& a)
+{
+	return chain(a, std::sin(a.f), std::cos(a.f), -std::sin(a.f));
+}
+inline TimeJet cos(const TimeJet& a)
+{
+	return chain(a, std::cos(a.f), -std::sin(a.f), -std::cos(a.f));
+}
 inline TimeJet inverseSqrt(const TimeJet& a)
 {
 	const double r = 1 / std::sqrt(a.f);

@@ -22,7 +22,8 @@ WheelIntrinsics actualIntrinsics(const WheelOptions& o, uint64_t seed)
 void requireGroups(const std::vector<double>& list, size_t group, const char* key)
 {
 	if (list.size() % group != 0)
-		throw Error(std::string("[wheels] ") + key + ": expected groups of " + std::to_string(group) + " numbers, found " + std::to_string(list.size()));
+		throw Error(std::string("[wheels] ") + key + ": expected groups of " + std::to_string(group) + " numbers, found " +
+		            std::to_string(list.size()));
 }
 
 /** Turns of one wheel, as metres of nominal circumference, read in whole ticks. */
@@ -30,7 +31,7 @@ class Encoder
 {
    public:
 	Encoder(const WheelOptions& o, int64_t start_ticks)
-		: tick_m_(2 * M_PI * o.radius_m / o.ticks_per_revolution), quantised_(o.tick_quantisation), start_ticks_(start_ticks)
+	    : tick_m_(2 * M_PI * o.radius_m / o.ticks_per_revolution), quantised_(o.tick_quantisation), start_ticks_(start_ticks)
 	{
 	}
 
@@ -72,12 +73,14 @@ WheelOptions WheelOptions::perfect()
 	return o;
 }
 
-WheelModel::WheelModel(const Motion& motion, const WheelOptions& options, uint64_t seed) : options_(options), actual_(actualIntrinsics(options, seed))
+WheelModel::WheelModel(const Motion& motion, const WheelOptions& options, uint64_t seed)
+    : options_(options), actual_(actualIntrinsics(options, seed))
 {
 	requireGroups(options.slips, 4, "slips");
 	requireGroups(options.silences, 2, "silences");
 	for (size_t i = 3; i < options.slips.size(); i += 4)
-		if (options.slips[i] != 0 && options.slips[i] != 1) throw Error("[wheels] slips: the fourth number of a slip is 0 (left) or 1 (right)");
+		if (options.slips[i] != 0 && options.slips[i] != 1)
+			throw Error("[wheels] slips: the fourth number of a slip is 0 (left) or 1 (right)");
 	if (2e-3 * options.stamp_jitter_ms >= 1 / options.rate_hz)
 		throw Error("[wheels] stamp_jitter_ms: must be below half the interval of readings, or stamps go back");
 	simulate(motion, seed);
@@ -107,7 +110,7 @@ WheelSpeeds WheelModel::travel(const Motion& motion, double begin_s, double end_
 		for (const double t : {options_.slips[i], options_.slips[i] + options_.slips[i + 1]})
 			if (t > begin_s && t < end_s) cuts.push_back(t);
 	std::sort(cuts.begin(), cuts.end());
-	// Three Gauss points on at most some tens of milliseconds: the speeds are smooth, what remains is below a nanometre.
+	// Three Gauss points on at most some tens of milliseconds: the speeds are smooth, what remains is some nanometres.
 	static constexpr double kNodes[] = {-0.7745966692414834, 0, 0.7745966692414834};
 	static constexpr double kWeights[] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 	WheelSpeeds sum;
@@ -128,7 +131,7 @@ WheelSpeeds WheelModel::travel(const Motion& motion, double begin_s, double end_
 void WheelModel::simulate(const Motion& motion, uint64_t seed)
 {
 	std::mt19937_64 noise_generator = randomSource(seed, "wheel noise"), jitter_generator = randomSource(seed, "wheel jitter"),
-					start_generator = randomSource(seed, "wheel start ticks");
+	                start_generator = randomSource(seed, "wheel start ticks");
 	std::normal_distribution<double> normal;
 	std::uniform_real_distribution<double> jitter(-1e-3 * options_.stamp_jitter_ms, std::nextafter(1e-3 * options_.stamp_jitter_ms, 1.0));
 	std::uniform_int_distribution<int64_t> start_ticks(0, 100000);
@@ -137,7 +140,8 @@ void WheelModel::simulate(const Motion& motion, uint64_t seed)
 	{
 		const double speed_m_s = std::abs(travel_m) / dt_s, standing_m_s = 1e-9;
 		const double draw = normal(noise_generator);
-		const double density = speed_m_s < standing_m_s ? 0 : std::hypot(options_.noise_m_s_sqrtHz, options_.noise_per_speed_sqrtHz * speed_m_s);
+		const double density =
+		    speed_m_s < standing_m_s ? 0 : std::hypot(options_.noise_m_s_sqrtHz, options_.noise_per_speed_sqrtHz * speed_m_s);
 		return travel_m + density * std::sqrt(dt_s) * draw;
 	};
 
@@ -163,7 +167,8 @@ void WheelModel::simulate(const Motion& motion, uint64_t seed)
 		reading.ticks_left = left.ticks();
 		reading.ticks_right = right.ticks();
 		const double distance_m = 0.5 * (left_m + right_m), angle_rad = (right_m - left_m) / options_.track_m;
-		if (since_s > 0) reading.mean_twist = {distance_m / since_s, angle_rad / since_s};
+		if (since_s > 0)
+			reading.mean_twist = {distance_m / since_s, angle_rad / since_s};
 		else
 		{
 			const WheelSpeeds now = motion.wheelSpeeds(t_s, actual_.track_m);
@@ -179,7 +184,8 @@ std::vector<WheelSample> WheelModel::samples(double t_begin_s, double t_end_s) c
 {
 	std::vector<WheelSample> result;
 	for (const WheelReading& r : readings_)
-		if (r.t_s >= t_begin_s - 5e-10 && r.t_s <= t_end_s + 5e-10) result.push_back(wheelSampleFromTwist(r.t_ns, r.mean_twist, options_.track_m));
+		if (r.t_s >= t_begin_s - 5e-10 && r.t_s <= t_end_s + 5e-10)
+			result.push_back(wheelSampleFromTwist(r.t_ns, r.mean_twist, options_.track_m));
 	return result;
 }
 }  // namespace viwo::sim

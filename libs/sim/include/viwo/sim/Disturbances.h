@@ -9,7 +9,8 @@ namespace viwo::sim
 {
 struct TimeJet;
 
-/** Section [floor] of a rig: unevenness as a sum of plane waves. Height, slope and the robot's pitch and roll follow from one height field. */
+/** Section [floor] of a rig: unevenness as a sum of plane waves. Height, slope and the robot's pitch and roll follow from one height field.
+ */
 struct FloorOptions : Options<FloorOptions>
 {
 	double height_rms_mm = 1.0;
@@ -22,9 +23,10 @@ struct FloorOptions : Options<FloorOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
-		v("height_rms_mm", height_rms_mm, "deviation of the floor from a plane, mm; the tilt is its slope, about 0.2 deg rms at 1 mm; 0: flat", 0, 50);
-		v("wavelength_min_m", wavelength_min_m, "shortest wave of the floor", 0.1, 100);
-		v("wavelength_max_m", wavelength_max_m, "longest wave of the floor", 0.1, 100);
+		v("height_rms_mm", height_rms_mm,
+		  "deviation of the floor from a plane, mm; the tilt is its slope, about 0.2 deg rms at 1 mm; 0: flat", 0.0, 50.0);
+		v("wavelength_min_m", wavelength_min_m, "shortest wave of the floor", 0.1, 100.0);
+		v("wavelength_max_m", wavelength_max_m, "longest wave of the floor", 0.1, 100.0);
 	}
 };
 
@@ -42,11 +44,11 @@ struct VibrationOptions : Options<VibrationOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
-		v("acceleration_m_s2", acceleration_m_s2, "rms acceleration of each axis at the reference speed; 0: none", 0, 20);
-		v("rate_deg_s", rate_deg_s, "rms angular rate of each axis at the reference speed; 0: none", 0, 100);
-		v("reference_speed_m_s", reference_speed_m_s, "wheel speed at which the above hold", 1e-3, 10);
-		v("frequency_min_hz", frequency_min_hz, "lowest frequency", 0.5, 90);
-		v("frequency_max_hz", frequency_max_hz, "highest frequency; below half the IMU's rate", 0.5, 90);
+		v("acceleration_m_s2", acceleration_m_s2, "rms acceleration of each axis at the reference speed; 0: none", 0.0, 20.0);
+		v("rate_deg_s", rate_deg_s, "rms angular rate of each axis at the reference speed; 0: none", 0.0, 100.0);
+		v("reference_speed_m_s", reference_speed_m_s, "wheel speed at which the above hold", 1e-3, 10.0);
+		v("frequency_min_hz", frequency_min_hz, "lowest frequency", 0.5, 90.0);
+		v("frequency_max_hz", frequency_max_hz, "highest frequency; below half the IMU's rate", 0.5, 90.0);
 	}
 };
 

@@ -8,7 +8,8 @@
 
 namespace viwo::sim
 {
-/** Section [imu] of a rig. Defaults: a consumer MEMS unit (Bosch BMI055 class) looking forward with a camera's axes. Zero switches an effect off. */
+/** Section [imu] of a rig. Defaults: a consumer MEMS unit (Bosch BMI055 class) looking forward with a camera's axes. Zero switches an
+ * effect off. */
 struct ImuOptions : Options<ImuOptions>
 {
 	double rate_hz = 200;
@@ -35,23 +36,24 @@ struct ImuOptions : Options<ImuOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
-		v("rate_hz", rate_hz, "samples a second", 1, 10000);
-		v("phase_ms", phase_ms, "time of the first sample", 0, 1000);
+		v("rate_hz", rate_hz, "samples a second", 1.0, 10000.0);
+		v("phase_ms", phase_ms, "time of the first sample", 0.0, 1000.0);
 		v("pose", pose, "x y z (m) yaw pitch roll (deg) of B in O: published as sensorPose");
 		v("pose_error", pose_error, "where it really sits: this displacement (m, deg) in its own frame on top");
 		v("gravity_m_s2", gravity_m_s2, "local gravity", 9.7, 9.9);
-		v("acc_noise_m_s2_sqrtHz", acc_noise_m_s2_sqrtHz, "white noise density (150 ug/sqrtHz = 1.5e-3)", 0, 1);
-		v("gyro_noise_rad_s_sqrtHz", gyro_noise_rad_s_sqrtHz, "white noise density (0.01 deg/s/sqrtHz = 1.7e-4)", 0, 1);
-		v("acc_walk_m_s3_sqrtHz", acc_walk_m_s3_sqrtHz, "random walk of the bias", 0, 1);
-		v("gyro_walk_rad_s2_sqrtHz", gyro_walk_rad_s2_sqrtHz, "random walk of the bias", 0, 1);
-		v("acc_start_bias_m_s2", acc_start_bias_m_s2, "each axis: uniform within +- this", 0, 5);
-		v("gyro_start_bias_rad_s", gyro_start_bias_rad_s, "each axis: uniform within +- this", 0, 1);
-		v("acc_scale_error", acc_scale_error, "each axis: uniform within +- this", 0, 0.2);
-		v("gyro_scale_error", gyro_scale_error, "each axis: uniform within +- this", 0, 0.2);
-		v("axis_misalignment_deg", axis_misalignment_deg, "non-orthogonality of the sensing axes: uniform within +- this", 0, 10);
-		v("acc_resolution_m_s2", acc_resolution_m_s2, "quantisation step", 0, 1);
-		v("gyro_resolution_rad_s", gyro_resolution_rad_s, "quantisation step", 0, 1);
-		v("stamp_jitter_ms", stamp_jitter_ms, "stamps off by up to +- this (uniform), the data are not; below half the sample interval", 0, 100);
+		v("acc_noise_m_s2_sqrtHz", acc_noise_m_s2_sqrtHz, "white noise density (150 ug/sqrtHz = 1.5e-3)", 0.0, 1.0);
+		v("gyro_noise_rad_s_sqrtHz", gyro_noise_rad_s_sqrtHz, "white noise density (0.01 deg/s/sqrtHz = 1.7e-4)", 0.0, 1.0);
+		v("acc_walk_m_s3_sqrtHz", acc_walk_m_s3_sqrtHz, "random walk of the bias", 0.0, 1.0);
+		v("gyro_walk_rad_s2_sqrtHz", gyro_walk_rad_s2_sqrtHz, "random walk of the bias", 0.0, 1.0);
+		v("acc_start_bias_m_s2", acc_start_bias_m_s2, "each axis: uniform within +- this", 0.0, 5.0);
+		v("gyro_start_bias_rad_s", gyro_start_bias_rad_s, "each axis: uniform within +- this", 0.0, 1.0);
+		v("acc_scale_error", acc_scale_error, "each axis: uniform within +- this", 0.0, 0.2);
+		v("gyro_scale_error", gyro_scale_error, "each axis: uniform within +- this", 0.0, 0.2);
+		v("axis_misalignment_deg", axis_misalignment_deg, "non-orthogonality of the sensing axes: uniform within +- this", 0.0, 10.0);
+		v("acc_resolution_m_s2", acc_resolution_m_s2, "quantisation step", 0.0, 1.0);
+		v("gyro_resolution_rad_s", gyro_resolution_rad_s, "quantisation step", 0.0, 1.0);
+		v("stamp_jitter_ms", stamp_jitter_ms, "stamps off by up to +- this (uniform), the data are not; below half the sample interval",
+		  0.0, 100.0);
 	}
 };
 

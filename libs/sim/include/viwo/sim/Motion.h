@@ -15,10 +15,10 @@ namespace viwo::sim
 struct MotionState
 {
 	Pose3 T_WO;
-	Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();	 //!< velocity of O in W's axes, m/s
-	Eigen::Vector3d a_WO = Eigen::Vector3d::Zero();	 //!< acceleration of O in W's axes, m/s^2
-	Eigen::Vector3d w_O = Eigen::Vector3d::Zero();	//!< angular rate of O against W, in O's axes, rad/s
-	Eigen::Vector3d alpha_O = Eigen::Vector3d::Zero();	//!< its time derivative, rad/s^2
+	Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();     //!< velocity of O in W's axes, m/s
+	Eigen::Vector3d a_WO = Eigen::Vector3d::Zero();     //!< acceleration of O in W's axes, m/s^2
+	Eigen::Vector3d w_O = Eigen::Vector3d::Zero();      //!< angular rate of O against W, in O's axes, rad/s
+	Eigen::Vector3d alpha_O = Eigen::Vector3d::Zero();  //!< its time derivative, rad/s^2
 };
 
 /** True ground speed of the two wheels, m/s. */
@@ -29,16 +29,16 @@ struct WheelSpeeds
 
 class PlanarPath;
 
-/** The true motion of the robot, a pure function of time: a route driven with twice continuously differentiable speeds, over an uneven floor,
- *  with body vibration. Velocities, accelerations and rates are exact derivatives of the pose, by the chain rule.
- *  The robot stands tangentially on the floor and rolls along its own x axis; vibration comes on top of that and turns no wheel.
+/** The true motion of the robot, a pure function of time: a route driven with twice continuously differentiable speeds, over an uneven
+ * floor, with body vibration. Velocities, accelerations and rates are exact derivatives of the pose, by the chain rule. The robot stands
+ * tangentially on the floor and rolls along its own x axis; vibration comes on top of that and turns no wheel.
  */
 class Motion
 {
    public:
 	/** @param epoch_ns stamp of t = 0. @throws Error for a route that cannot be driven. */
-	explicit Motion(const Route& route, const FloorOptions& floor = FloorOptions::flat(), const VibrationOptions& vibration = VibrationOptions::off(),
-		uint64_t seed = 1, int64_t epoch_ns = kDefaultEpoch_ns);
+	explicit Motion(const Route& route, const FloorOptions& floor = FloorOptions::flat(),
+	                const VibrationOptions& vibration = VibrationOptions::off(), uint64_t seed = 1, int64_t epoch_ns = kDefaultEpoch_ns);
 	~Motion();
 	Motion(Motion&&) noexcept;
 

@@ -13,10 +13,10 @@ struct RouteSegment
 	enum class Kind
 	{
 		straight,  //!< length_m
-		rotate,	 //!< on the spot by angle_rad, positive to the left
-		arc,  //!< radius_m > 0, angle_rad, positive to the left
-		stand,	//!< duration_s
-		free  //!< duration_s of the route's sums of sines
+		rotate,    //!< on the spot by angle_rad, positive to the left
+		arc,       //!< radius_m > 0, angle_rad, positive to the left
+		stand,     //!< duration_s
+		free       //!< duration_s of the route's sums of sines
 	};
 	Kind kind = Kind::stand;
 	double length_m = 0;
@@ -49,18 +49,19 @@ struct Route : Options<Route>
 		v("start_x_m", start_x_m, "where the route starts in the world");
 		v("start_y_m", start_y_m, "");
 		v("start_yaw_deg", start_yaw_deg, "heading at the start");
-		v("speed_m_s", speed_m_s, "speed on straights, arcs and (mean) in free motion", 1e-3, 5);
-		v("yaw_rate_rad_s", yaw_rate_rad_s, "yaw rate of rotations; tight arcs are driven no faster than this", 1e-3, 5);
-		v("acceleration_m_s2", acceleration_m_s2, "largest acceleration along the path", 1e-3, 10);
-		v("yaw_acceleration_rad_s2", yaw_acceleration_rad_s2, "largest yaw acceleration", 1e-3, 20);
+		v("speed_m_s", speed_m_s, "speed on straights, arcs and (mean) in free motion", 1e-3, 5.0);
+		v("yaw_rate_rad_s", yaw_rate_rad_s, "yaw rate of rotations; tight arcs are driven no faster than this", 1e-3, 5.0);
+		v("acceleration_m_s2", acceleration_m_s2, "largest acceleration along the path", 1e-3, 10.0);
+		v("yaw_acceleration_rad_s2", yaw_acceleration_rad_s2, "largest yaw acceleration", 1e-3, 20.0);
 		v("initial_speed", initial_speed, "the log begins in mid-motion: the first segment has its full speed from the first sample on");
 		v("final_stop", final_stop, "the last segment ends at rest; false: the log ends in mid-motion");
-		v("duration_s", duration_s, "the log is cut at this time; 0: at the end of the last segment", 0, 86400);
+		v("duration_s", duration_s, "the log is cut at this time; 0: at the end of the last segment", 0.0, 86400.0);
 		v("segments", segments,
-			"comma-separated: straight L m | rotate A deg | arc RADIUS m A deg | stand T s | free T s; angles positive to the left; 'N x (...)' repeats");
+		  "comma-separated: straight L m | rotate A deg | arc RADIUS m A deg | stand T s | free T s; angles positive to the left; 'N x "
+		  "(...)' repeats");
 		v("free_speed_amplitudes", free_speed_amplitudes, "free motion: speed = speed_m_s (1 + sum of A sin(2 pi t / period))");
 		v("free_speed_periods_s", free_speed_periods_s, "one for each amplitude");
-		v("free_yaw_rate_mean_rad_s", free_yaw_rate_mean_rad_s, "free motion: yaw rate = mean + sum of A sin(2 pi t / period)", -5, 5);
+		v("free_yaw_rate_mean_rad_s", free_yaw_rate_mean_rad_s, "free motion: yaw rate = mean + sum of A sin(2 pi t / period)", -5.0, 5.0);
 		v("free_yaw_rate_amplitudes_rad_s", free_yaw_rate_amplitudes_rad_s, "");
 		v("free_yaw_rate_periods_s", free_yaw_rate_periods_s, "one for each amplitude");
 	}

@@ -36,24 +36,27 @@ struct WheelOptions : Options<WheelOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
-		v("rate_hz", rate_hz, "readings a second", 1, 1000);
-		v("phase_ms", phase_ms, "time of the first reading", 0, 1000);
-		v("radius_m", radius_m, "nominal radius of the wheels", 1e-3, 1);
-		v("track_m", track_m, "nominal distance between the wheels", 1e-2, 5);
-		v("ticks_per_revolution", ticks_per_revolution, "encoder ticks in one turn of a wheel", 1, 1e7);
+		v("rate_hz", rate_hz, "readings a second", 1.0, 1000.0);
+		v("phase_ms", phase_ms, "time of the first reading", 0.0, 1000.0);
+		v("radius_m", radius_m, "nominal radius of the wheels", 1e-3, 1.0);
+		v("track_m", track_m, "nominal distance between the wheels", 1e-2, 5.0);
+		v("ticks_per_revolution", ticks_per_revolution, "encoder ticks in one turn of a wheel", 1.0, 1e7);
 		v("tick_quantisation", tick_quantisation, "false: speeds are computed from real-valued ticks");
 		v("radius_error", radius_error, "both true radii are larger than nominal by this fraction", -0.2, 0.2);
 		v("left_right_difference", left_right_difference, "the right true radius is larger than the left one by this fraction", -0.2, 0.2);
 		v("track_error", track_error, "the true track is larger than nominal by this fraction", -0.2, 0.2);
-		v("radius_deviation", radius_deviation, "standard deviation of a further radius_error, drawn from the seed", 0, 0.1);
-		v("left_right_deviation", left_right_deviation, "standard deviation of a further left_right_difference, drawn from the seed", 0, 0.1);
-		v("track_deviation", track_deviation, "standard deviation of a further track_error, drawn from the seed", 0, 0.1);
-		v("noise_m_s_sqrtHz", noise_m_s_sqrtHz, "white speed noise of each turning wheel: density sqrt(this^2 + (noise_per_speed |v|)^2)", 0, 1);
-		v("noise_per_speed_sqrtHz", noise_per_speed_sqrtHz, "its growth with speed, (m/s)/(m/s)/sqrt(Hz)", 0, 1);
-		v("slips", slips, "slip bursts, four numbers each: begin (s), duration (s), fraction that the wheel turns too much, wheel (0 left, 1 right)");
+		v("radius_deviation", radius_deviation, "standard deviation of a further radius_error, drawn from the seed", 0.0, 0.1);
+		v("left_right_deviation", left_right_deviation, "standard deviation of a further left_right_difference, drawn from the seed", 0.0,
+		  0.1);
+		v("track_deviation", track_deviation, "standard deviation of a further track_error, drawn from the seed", 0.0, 0.1);
+		v("noise_m_s_sqrtHz", noise_m_s_sqrtHz, "white speed noise of each turning wheel: density sqrt(this^2 + (noise_per_speed |v|)^2)",
+		  0.0, 1.0);
+		v("noise_per_speed_sqrtHz", noise_per_speed_sqrtHz, "its growth with speed, (m/s)/(m/s)/sqrt(Hz)", 0.0, 1.0);
+		v("slips", slips,
+		  "slip bursts, four numbers each: begin (s), duration (s), fraction that the wheel turns too much, wheel (0 left, 1 right)");
 		v("silences", silences, "intervals without readings, two numbers each: begin (s), duration (s)");
-		v("stamp_jitter_ms", stamp_jitter_ms, "stamps off by up to +- this (uniform), the data are not", 0, 100);
-		v("clock_offset_ms", clock_offset_ms, "t_w: IMU time = wheel time + this", -1000, 1000);
+		v("stamp_jitter_ms", stamp_jitter_ms, "stamps off by up to +- this (uniform), the data are not", 0.0, 100.0);
+		v("clock_offset_ms", clock_offset_ms, "t_w: IMU time = wheel time + this", -1000.0, 1000.0);
 	}
 };
 
@@ -61,10 +64,10 @@ struct WheelOptions : Options<WheelOptions>
 struct WheelReading
 {
 	int64_t t_ns = 0;
-	double t_s = 0;	 //!< true time since the motion's start
+	double t_s = 0;                           //!< true time since the motion's start
 	int64_t ticks_left = 0, ticks_right = 0;  //!< absolute
-	WheelTwist mean_twist;	//!< since the reading before, by nominal radius and track
-	double x_m = 0, y_m = 0, yaw_rad = 0;  //!< dead-reckoned from the readings, nominal radius and track, from (0,0,0)
+	WheelTwist mean_twist;                    //!< since the reading before, by nominal radius and track
+	double x_m = 0, y_m = 0, yaw_rad = 0;     //!< dead-reckoned from the readings, nominal radius and track, from (0,0,0)
 };
 
 /** Two driven wheels with encoders that carry the robot along a motion. */
