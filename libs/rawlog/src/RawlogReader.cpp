@@ -1,0 +1,189 @@
+#include <mrpt/obs/CObservationImage.h>
+#include <viwo/core/Error.h>
+#include <viwo/core/Time.h>
+#include <viwo/rawlog/MrptTime.h>
+#include <viwo/rawlog/RawlogReader.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "ImageFolder.h"
+#include "ObservationSource.h"
+
+using mrpt::obs::CObservation;
+
+namespace viwo
+{
+namespace
+{
+std::string shortClassName(const CObservation& observation)
+{
+	const std::string name = observation.GetRuntimeClass()->className;
+	const size_t colon = name.rfind(':');
+	return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+}  // namespace
+
+std::string RawlogCounts::describe() const
+{
+	std::string text;
+	for (const auto& [key, sensor] : sensors)
+		text += (text.empty() ? "" : ", ") + (key.first.empty() ? "(empty)" : key.first) + " (" + std::to_string(sensor.read) + " " +
+		        key.second + ")";
+	return text.empty() ? "none" : text;
+}
+
+struct RawlogReader::Impl
+{
+	/** An observation that waits for its turn, or the message to give at its turn. */
+	struct Queued
+	{
+		CObservation::Ptr observation;
+		std::string error;
+	};
+
+	Impl(const std::string& path, const RawlogReaderOptions& options)
+	    : path(path),
+	      options(options),
+	      source(path, options.action_odometry_label),
+	      images(path),
+	      window_ns(nanoseconds(options.reorder_window_s))
+	{
+	}
+
+	CObservation::Ptr next();
+	void readEntry();
+	void accept(const CObservation::Ptr& observation);
+	bool resolveImage(const CObservation::Ptr& observation, std::string& error);
+	bool wanted(const std::string& label) const
+	{
+		return options.labels.empty() || std::find(options.labels.begin(), options.labels.end(), label) != options.labels.end();
+	}
+
+	std::string path;
+	RawlogReaderOptions options;
+	ObservationSource source;
+	ImageFolder images;
+	RawlogCounts counts;
+	int64_t window_ns;
+	std::multimap<int64_t, Queued> queue;  //!< by stamp; of equal stamps in the order of the file
+	int64_t newest_ns = std::numeric_limits<int64_t>::min();
+	std::optional<int64_t> last_delivered_ns;
+	bool ended = false;
+	std::string final_error;
+};
+
+bool RawlogReader::Impl::resolveImage(const CObservation::Ptr& observation, std::string& error)
+{
+	const auto image = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(observation);
+	if (!image || !image->image.isExternallyStored()) return true;
+	const std::string name = image->image.getExternalStorageFile();
+	std::string reason;
+	const std::string file = images.find(name, reason);
+	if (file.empty())
+	{
+		error = path + ": entry " + std::to_string(counts.entries) + ": image file " + name + " is missing: " + reason;
+		return false;
+	}
+	image->image.setExternalStorage(file);
+	return true;
+}
+
+void RawlogReader::Impl::accept(const CObservation::Ptr& observation)
+{
+	auto& sensor = counts.sensors[{observation->sensorLabel, shortClassName(*observation)}];
+	sensor.read++;
+	if (observation->timestamp == INVALID_TIMESTAMP)
+	{
+		sensor.unstamped++;
+		return;
+	}
+	const int64_t t_ns = nanosecondsOf(observation->timestamp);
+	const bool is_first = sensor.read == sensor.unstamped + 1;
+	sensor.first_t_ns = is_first ? t_ns : std::min(sensor.first_t_ns, t_ns);
+	sensor.last_t_ns = is_first ? t_ns : std::max(sensor.last_t_ns, t_ns);
+	if (!wanted(observation->sensorLabel)) return;
+	if (last_delivered_ns && t_ns < *last_delivered_ns)
+	{
+		sensor.late++;
+		counts.late++;
+		return;
+	}
+	Queued queued{observation, {}};
+	if (!resolveImage(observation, queued.error))
+	{
+		sensor.missing_images++;
+		if (options.skip_missing_images) return;
+	}
+	newest_ns = std::max(newest_ns, t_ns);
+	queue.emplace(t_ns, std::move(queued));
+}
+
+void RawlogReader::Impl::readEntry()
+{
+	std::vector<CObservation::Ptr> observations;
+	try
+	{
+		ended = !source.readEntry(observations);
+	}
+	catch (const Error& e)
+	{
+		ended = true;
+		if (!source.truncated() || !options.allow_truncated) final_error = e.what();
+	}
+	counts.entries = source.entries();
+	for (const auto& observation : observations) accept(observation);
+}
+
+CObservation::Ptr RawlogReader::Impl::next()
+{
+	while (!ended && (queue.empty() || newest_ns - queue.begin()->first < window_ns)) readEntry();
+	if (queue.empty())
+	{
+		if (final_error.empty()) return nullptr;
+		const Error error(final_error);
+		final_error.clear();
+		throw error;
+	}
+	const auto front = queue.begin();
+	last_delivered_ns = front->first;
+	const Queued queued = std::move(front->second);
+	queue.erase(front);
+	if (!queued.error.empty()) throw Error(queued.error);
+	return queued.observation;
+}
+
+RawlogReader::RawlogReader(const std::string& path, const RawlogReaderOptions& options) : impl_(std::make_unique<Impl>(path, options)) {}
+RawlogReader::~RawlogReader() = default;
+RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
+
+CObservation::Ptr RawlogReader::next()
+{
+	return impl_->next();
+}
+bool RawlogReader::truncated() const
+{
+	return impl_->source.truncated();
+}
+const RawlogCounts& RawlogReader::counts() const
+{
+	return impl_->counts;
+}
+const std::string& RawlogReader::comment() const
+{
+	return impl_->source.comment();
+}
+const std::string& RawlogReader::imagesFolder() const
+{
+	return impl_->images.path();
+}
+double RawlogReader::progress() const
+{
+	return impl_->source.progress();
+}
+const std::string& RawlogReader::path() const
+{
+	return impl_->path;
+}
+}  // namespace viwo

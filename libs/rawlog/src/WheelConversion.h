@@ -1,0 +1,20 @@
+#pragma once
+
+#include <viwo/rawlog/ObservationAdapter.h>
+
+#include <optional>
+#include <string>
+
+namespace viwo
+{
+bool hasSource(const mrpt::obs::CObservationOdometry& odometry, AdapterOptions::OdometrySource source);
+
+/** The values of odometry_source that this observation could serve. */
+std::string describeSources(const mrpt::obs::CObservationOdometry& odometry);
+
+bool isFinite(const mrpt::obs::CObservationOdometry& odometry);
+
+/** Mean wheel speeds from `previous` to `current`, in the IMU's clock; nothing where they take two readings and previous is null. */
+std::optional<WheelSample> wheelSampleFrom(const mrpt::obs::CObservationOdometry* previous, const mrpt::obs::CObservationOdometry& current,
+                                           const AdapterOptions& options);
+}  // namespace viwo
