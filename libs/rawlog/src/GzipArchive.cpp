@@ -12,39 +12,82 @@ namespace viwo
 namespace
 {
 constexpr size_t kBuffer_bytes = size_t{1} << 16;
+constexpr unsigned char kGzipMagic[2] = {0x1f, 0x8b};
 constexpr int kGzipWithLargestWindow = 15 + 16;
 constexpr int kCompressionLevel = 1;  // as rawlog-edit: the images, most of a rawlog, are compressed already
 }  // namespace
 
-GzipArchiveReader::GzipArchiveReader(const std::string& path) : buffer_(kBuffer_bytes)
+GzipArchiveReader::GzipArchiveReader(const std::string& path) : input_(kBuffer_bytes), buffer_(kBuffer_bytes)
 {
 	errno = 0;
-	file_ = gzopen(path.c_str(), "rb");
+	file_.open(path, std::ios::binary);
 	if (!file_) throw Error(path + ": cannot open this rawlog: " + std::strerror(errno) + "; check its name and permissions");
-	gzbuffer(file_, static_cast<unsigned>(kBuffer_bytes));
+	if (inflateInit2(&stream_, kGzipWithLargestWindow) != Z_OK) throw std::bad_alloc();
+	is_compressed_ = readInput() && stream_.avail_in >= 2 && input_[0] == kGzipMagic[0] && input_[1] == kGzipMagic[1];
 }
 
 GzipArchiveReader::~GzipArchiveReader()
 {
-	gzclose(file_);
+	inflateEnd(&stream_);
+}
+
+bool GzipArchiveReader::readInput()
+{
+	file_.read(reinterpret_cast<char*>(input_.data()), static_cast<std::streamsize>(input_.size()));
+	stream_.next_in = input_.data();
+	stream_.avail_in = static_cast<uInt>(file_.gcount());
+	position_ += stream_.avail_in;
+	if (file_.bad()) state_ = State::damaged;
+	return stream_.avail_in > 0;
+}
+
+void GzipArchiveReader::copyPlain()
+{
+	const size_t chunk = std::min<size_t>(buffer_.size() - end_, stream_.avail_in);
+	std::memcpy(freeSpace(), stream_.next_in, chunk);
+	end_ += chunk;
+	stream_.next_in += chunk;
+	stream_.avail_in -= static_cast<uInt>(chunk);
+}
+
+void GzipArchiveReader::inflateSome()
+{
+	if (member_ended_)
+	{
+		// Another gzip member may follow (files that were appended to); anything else is padding.
+		if (*stream_.next_in != kGzipMagic[0])
+		{
+			finished_ = true;
+			return;
+		}
+		inflateReset(&stream_);
+		member_ended_ = false;
+	}
+	stream_.next_out = freeSpace();
+	stream_.avail_out = static_cast<uInt>(buffer_.size() - end_);
+	const int code = inflate(&stream_, Z_NO_FLUSH);
+	end_ = buffer_.size() - stream_.avail_out;
+	member_ended_ = code == Z_STREAM_END;
+	if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR) state_ = State::damaged;
 }
 
 void GzipArchiveReader::fill(size_t count)
 {
-	if (end_ - begin_ >= count || state_ != State::good) return;
-	std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_), buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+	if (end_ - begin_ >= count) return;
+	std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
 	end_ -= begin_;
 	begin_ = 0;
-	while (end_ < count)
+	while (end_ < count && state_ == State::good && !finished_)
 	{
-		const int got = gzread(file_, buffer_.data() + end_, static_cast<unsigned>(buffer_.size() - end_));
-		int code = Z_OK;
-		gzerror(file_, &code);
-		if (got > 0) end_ += static_cast<size_t>(got);
-		if (got > 0 && code == Z_OK) continue;
-		// Z_BUF_ERROR: the file ends before the gzip trailer.
-		if (code != Z_OK && code != Z_STREAM_END) state_ = code == Z_BUF_ERROR ? State::truncated : State::damaged;
-		return;
+		if (stream_.avail_in == 0 && !readInput())
+		{
+			finished_ = true;
+			if (is_compressed_ && !member_ended_ && state_ == State::good) state_ = State::truncated;
+		}
+		else if (is_compressed_)
+			inflateSome();
+		else
+			copyPlain();
 	}
 }
 
@@ -57,12 +100,7 @@ bool GzipArchiveReader::atEnd()
 std::string GzipArchiveReader::peek(size_t count)
 {
 	fill(count);
-	return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
-}
-
-uint64_t GzipArchiveReader::position() const
-{
-	return static_cast<uint64_t>(std::max<z_off_t>(0, gzoffset(file_)));
+	return {reinterpret_cast<const char*>(buffer_.data()) + begin_, std::min(count, end_ - begin_)};
 }
 
 size_t GzipArchiveReader::read(void* target, size_t length)

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <cstdint>
+#include <fstream>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -36,7 +37,7 @@ class GzipArchiveReader : public mrpt::serialization::CArchive
 	State state() const { return state_; }
 
 	/** Bytes of the (compressed) file read so far, some of them ahead. */
-	uint64_t position() const;
+	uint64_t position() const { return position_; }
 
    protected:
 	size_t read(void* buffer, size_t length) override;
@@ -44,9 +45,17 @@ class GzipArchiveReader : public mrpt::serialization::CArchive
 
    private:
 	void fill(size_t count);
+	bool readInput();
+	void copyPlain();
+	void inflateSome();
+	unsigned char* freeSpace() { return buffer_.data() + end_; }
 
-	gzFile file_ = nullptr;
-	std::vector<char> buffer_;
+	std::ifstream file_;
+	uint64_t position_ = 0;
+	std::vector<unsigned char> input_;
+	z_stream stream_{};  //!< its next_in, avail_in: what is left of input_
+	bool is_compressed_ = false, member_ended_ = false, finished_ = false;
+	std::vector<unsigned char> buffer_;  //!< plain bytes; those from begin_ to end_ are unread
 	size_t begin_ = 0, end_ = 0;
 	State state_ = State::good;
 };

@@ -70,9 +70,7 @@ ObservationSource::ObservationSource(const std::string& path, const std::string&
 	if (archive_.peek(4) == "\x28\xB5\x2F\xFD")
 		throw Error(path + ": compressed by zstd, which is not read here; unpack it first: zstd -d < " + path + " > plain.rawlog");
 	if (archive_.atEnd()) throw Error(path + ": no entries in this rawlog; record or copy it again");
-	const bool is_unreadable = archive_.state() == GzipArchiveReader::State::damaged;
-	if (is_unreadable || headAt(archive_) == Head::something_else)
-		throw Error(path + ": not a rawlog (it does not start with an MRPT object)");
+	if (headAt(archive_) == Head::something_else) throw Error(path + ": not a rawlog (it does not start with an MRPT object)");
 }
 
 double ObservationSource::progress() const
