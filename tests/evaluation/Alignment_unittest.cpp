@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace viwo;
-using namespace viwo::test;
+using namespace viwo::testing;
 
 namespace
 {

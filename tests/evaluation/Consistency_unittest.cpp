@@ -1,5 +1,5 @@
 #include "RandomTrajectory.h"
-#include "TemporaryFolder.h"
+#include "RunProgram.h"
 
 #include <viwo/core/Error.h>
 #include <viwo/evaluation/Consistency.h>
@@ -11,7 +11,7 @@
 #include <limits>
 
 using namespace viwo;
-using namespace viwo::test;
+using namespace viwo::testing;
 
 namespace
 {
@@ -139,10 +139,10 @@ TEST(Consistency, CountsWhatItCannotUse)
 
 TEST(CovarianceFile, ReadsTheUpperTriangle)
 {
-	const TemporaryFolder folder;
+	const TempFolder folder;
 	std::string line = "1700000000.123456789";
 	for (int i = 1; i <= 21; ++i) line += "," + (i == 21 ? std::string() : std::to_string(i));
-	const auto entries = loadCovariances(folder.write("c.csv", csv(line + ",tracking\n" + row("1700000001.0", "2"))));
+	const auto entries = loadCovariances(write(folder, "c.csv", csv(line + ",tracking\n" + row("1700000001.0", "2"))));
 	ASSERT_EQ(entries.size(), 2u);
 	EXPECT_EQ(entries[0].t_ns, 1700000000123456789);
 	EXPECT_EQ(entries[0].covariance(0, 0), 1);
@@ -156,12 +156,12 @@ TEST(CovarianceFile, ReadsTheUpperTriangle)
 
 TEST(CovarianceFile, NamesFileAndLine)
 {
-	const TemporaryFolder folder;
-	EXPECT_NE(errorOf(folder / "absent.csv").find("absent.csv"), std::string::npos);
-	EXPECT_NE(errorOf(folder.write("a.csv", csv(""))).find("no covariance"), std::string::npos);
-	EXPECT_NE(errorOf(folder.write("b.csv", csv(row("1", "x")))).find("b.csv:3: 'x' is not a number"), std::string::npos);
-	EXPECT_NE(errorOf(folder.write("c.csv", csv(row("2", "1") + row("2", "1")))).find("c.csv:4: time stamps do not increase"),
+	const TempFolder folder;
+	EXPECT_NE(errorOf(folder.file("absent.csv")).find("absent.csv"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "a.csv", csv(""))).find("no covariance"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "b.csv", csv(row("1", "x")))).find("b.csv:3: 'x' is not a number"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "c.csv", csv(row("2", "1") + row("2", "1")))).find("c.csv:4: time stamps do not increase"),
 	          std::string::npos);
-	EXPECT_NE(errorOf(folder.write("d.csv", row("1", "1"))).find("d.csv:1: the header line"), std::string::npos);
-	EXPECT_NE(errorOf(folder.write("e.csv", csv("1,2,3\n"))).find("e.csv:3: 3 columns"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "d.csv", row("1", "1"))).find("d.csv:1: the header line"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "e.csv", csv("1,2,3\n"))).find("e.csv:3: 3 columns"), std::string::npos);
 }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace viwo;
-using namespace viwo::test;
+using namespace viwo::testing;
 
 /** viwo-evaluate as a user runs it. */
 class EvaluateProgram : public ::testing::Test
@@ -15,10 +15,10 @@ class EvaluateProgram : public ::testing::Test
 	void SetUp() override
 	{
 		reference_ = windingDrive(50, 30);
-		reference_.saveTum(folder_ / "ref.tum");
+		reference_.saveTum(folder_.file("ref.tum"));
 		const Pose3 T(Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ())), Eigen::Vector3d(1, 2, 3));
-		transformed(reference_, [&](const Pose3& pose) { return T * pose; }).saveTum(folder_ / "moved.tum");
-		transformed(reference_, [&](Pose3 pose) { return pose.p *= 1.1, pose; }).saveTum(folder_ / "scaled.tum");
+		transformed(reference_, [&](const Pose3& pose) { return T * pose; }).saveTum(folder_.file("moved.tum"));
+		transformed(reference_, [&](Pose3 pose) { return pose.p *= 1.1, pose; }).saveTum(folder_.file("scaled.tum"));
 	}
 
 	static ProgramResult run(const std::vector<std::string>& arguments)
@@ -36,17 +36,17 @@ class EvaluateProgram : public ::testing::Test
 		EXPECT_EQ(result.out, "");
 	}
 
-	TemporaryFolder folder_;
+	TempFolder folder_;
 	Trajectory reference_;
 };
 
 TEST_F(EvaluateProgram, AlignsAndWritesJson)
 {
 	const ProgramResult result =
-	    run({"-r", folder_ / "ref.tum", "-e", folder_ / "moved.tum", "--json", folder_ / "e.json", "--max-ate", "1e-6"});
+	    run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--json", folder_.file("e.json"), "--max-ate", "1e-6"});
 	EXPECT_EQ(result.status, 0) << result.err;
 	EXPECT_EQ(result.err, "");
-	const Json json = loadJson(folder_ / "e.json");
+	const Json json = loadJson(folder_.file("e.json"));
 	EXPECT_LT(json["ate_xyz_m"].get<double>(), 1e-7);
 	EXPECT_LT(json["yaw_rmse_deg"].get<double>(), 1e-5);
 	EXPECT_EQ(json["matched"], reference_.size());
@@ -56,12 +56,12 @@ TEST_F(EvaluateProgram, AlignsAndWritesJson)
 
 TEST_F(EvaluateProgram, SeveralEstimates)
 {
-	const ProgramResult result = run({"-r", folder_ / "ref.tum", "-e", folder_ / "moved.tum", "-e", folder_ / "scaled.tum", "--align",
-	                                  "none", "--json", folder_ / "e.json"});
+	const ProgramResult result = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("scaled.tum"),
+	                                  "--align", "none", "--json", folder_.file("e.json")});
 	EXPECT_EQ(result.status, 0) << result.err;
 	EXPECT_NE(result.out.find("moved.tum"), std::string::npos);
 	EXPECT_NE(result.out.find("scaled.tum"), std::string::npos);
-	const Json json = loadJson(folder_ / "e.json");
+	const Json json = loadJson(folder_.file("e.json"));
 	ASSERT_EQ(json["estimates"].size(), 2u);
 	EXPECT_GT(json["estimates"][0]["ate_xyz_m"].get<double>(), 3);
 	EXPECT_NEAR(json["estimates"][1]["rpe_trans_percent"].get<double>(), 10, 1.5) << "chord against arc";
@@ -69,37 +69,37 @@ TEST_F(EvaluateProgram, SeveralEstimates)
 
 TEST_F(EvaluateProgram, Sim3TakesOutScale)
 {
-	run({"-r", folder_ / "ref.tum", "-e", folder_ / "scaled.tum", "--align", "sim3", "--json", folder_ / "e.json"});
-	EXPECT_NEAR(loadJson(folder_ / "e.json")["scale"].get<double>(), 1 / 1.1, 1e-6);
+	run({"-r", folder_.file("ref.tum"), "-e", folder_.file("scaled.tum"), "--align", "sim3", "--json", folder_.file("e.json")});
+	EXPECT_NEAR(loadJson(folder_.file("e.json"))["scale"].get<double>(), 1 / 1.1, 1e-6);
 }
 
 TEST_F(EvaluateProgram, ExitStatusTellsOfLimits)
 {
-	const ProgramResult over = run({"-r", folder_ / "ref.tum", "-e", folder_ / "scaled.tum", "--max-ate", "0.01"});
+	const ProgramResult over = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("scaled.tum"), "--max-ate", "0.01"});
 	EXPECT_EQ(over.status, 1);
 	EXPECT_EQ(over.errorLines(), 1u) << over.err;
 	EXPECT_NE(over.err.find("over the limit of 0.01 m"), std::string::npos);
 	EXPECT_NE(over.out.find("scaled.tum"), std::string::npos) << "the table is printed all the same";
 
-	windingDrive(10, 10).saveTum(folder_ / "short.tum");
-	EXPECT_EQ(run({"-r", folder_ / "ref.tum", "-e", folder_ / "short.tum"}).status, 0);
-	EXPECT_EQ(run({"-r", folder_ / "ref.tum", "-e", folder_ / "short.tum", "--min-coverage", "0.97"}).status, 1);
+	windingDrive(10, 10).saveTum(folder_.file("short.tum"));
+	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("short.tum")}).status, 0);
+	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("short.tum"), "--min-coverage", "0.97"}).status, 1);
 }
 
 TEST_F(EvaluateProgram, BadInputsAreOneLine)
 {
-	const std::string ref = folder_ / "ref.tum", est = folder_ / "moved.tum";
-	expectFailure({"-r", folder_ / "absent.tum", "-e", est}, 1, "absent.tum");
-	expectFailure({"-r", ref, "-e", folder_.write("broken.tum", "1 2 3\n")}, 1, "broken.tum:1");
-	expectFailure({"-r", ref, "-e", folder_.write("double.tum", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n")}, 1, "double.tum:2");
-	expectFailure({"-r", ref, "-e", folder_.write("other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n")}, 1, "no overlap in time");
-	expectFailure({"-r", ref, "-e", folder_.write("single.tum", "1700000001 0 0 0 0 0 0 1\n")}, 1, "fewer than two poses");
+	const std::string ref = folder_.file("ref.tum"), est = folder_.file("moved.tum");
+	expectFailure({"-r", folder_.file("absent.tum"), "-e", est}, 1, "absent.tum");
+	expectFailure({"-r", ref, "-e", write(folder_, "broken.tum", "1 2 3\n")}, 1, "broken.tum:1");
+	expectFailure({"-r", ref, "-e", write(folder_, "double.tum", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n")}, 1, "double.tum:2");
+	expectFailure({"-r", ref, "-e", write(folder_, "other.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n")}, 1, "no overlap in time");
+	expectFailure({"-r", ref, "-e", write(folder_, "single.tum", "1700000001 0 0 0 0 0 0 1\n")}, 1, "fewer than two poses");
 	expectFailure({"-r", ref, "-e", est, "--nees"}, 1, "trajectory_covariance.csv");
 }
 
 TEST_F(EvaluateProgram, BadUsageIsStatusTwo)
 {
-	const std::string ref = folder_ / "ref.tum", est = folder_ / "moved.tum";
+	const std::string ref = folder_.file("ref.tum"), est = folder_.file("moved.tum");
 	expectFailure({"-e", est}, 2, "--reference");
 	expectFailure({"-r", ref, "-e", est, "--align", "so3"}, 2, "so3");
 	expectFailure({"-r", ref, "-e", est, "--max-gap", "-1"}, 2, "--max-gap");
@@ -138,10 +138,11 @@ TEST_F(EvaluateProgram, NeesOfAnHonestFile)
 			for (int c = r; c < 6; ++c) csv += r == c ? ",4e-4" : ",0";
 		csv += ",tracking\n";
 	}
-	noisy.saveTum(folder_ / "trajectory.tum");
-	folder_.write("trajectory_covariance.csv", csv);
-	const ProgramResult result = run({"-r", folder_ / "ref.tum", "-e", folder_ / "trajectory.tum", "--nees", "--json", folder_ / "e.json"});
+	noisy.saveTum(folder_.file("trajectory.tum"));
+	write(folder_, "trajectory_covariance.csv", csv);
+	const ProgramResult result =
+	    run({"-r", folder_.file("ref.tum"), "-e", folder_.file("trajectory.tum"), "--nees", "--json", folder_.file("e.json")});
 	EXPECT_EQ(result.status, 0) << result.err;
-	EXPECT_NEAR(loadJson(folder_ / "e.json")["anees_position"].get<double>(), 1, 0.1);
+	EXPECT_NEAR(loadJson(folder_.file("e.json"))["anees_position"].get<double>(), 1, 0.1);
 	EXPECT_NE(result.out.find("ANEES"), std::string::npos);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace viwo::test
+namespace viwo::testing
 {
 inline Eigen::Vector3d randomVector(std::mt19937_64& random, double sigma)
 {
@@ -45,4 +45,4 @@ Trajectory transformed(const Trajectory& trajectory, const Function& f)
 	for (const StampedPose& pose : trajectory.poses()) result.push_back({pose.t_ns, f(pose.T)});
 	return result;
 }
-}  // namespace viwo::test
+}  // namespace viwo::testing

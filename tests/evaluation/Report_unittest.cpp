@@ -1,5 +1,5 @@
 #include "RandomTrajectory.h"
-#include "TemporaryFolder.h"
+#include "RunProgram.h"
 
 #include <viwo/core/Error.h>
 #include <viwo/evaluation/Report.h>
@@ -10,7 +10,7 @@
 #include <limits>
 
 using namespace viwo;
-using namespace viwo::test;
+using namespace viwo::testing;
 
 TEST(Table, AlignsTextAndMarkdown)
 {
@@ -37,13 +37,13 @@ TEST(Json, IsStable)
 {
 	const Json json = {{"b", 0.1 + 0.2}, {"a", {1.0 / 3, std::numeric_limits<double>::quiet_NaN(), 7}}};
 	EXPECT_EQ(toText(json), "{\n  \"b\": 0.3,\n  \"a\": [\n    0.333333333,\n    null,\n    7\n  ]\n}\n");
-	const TemporaryFolder folder;
-	saveJson(folder / "x.json", json);
-	EXPECT_EQ(readFile(folder / "x.json"), toText(json));
-	EXPECT_EQ(toText(loadJson(folder / "x.json")), toText(json));
-	folder.write("bad.json", "{\"a\": ");
-	EXPECT_THROW(loadJson(folder / "bad.json"), Error);
-	EXPECT_THROW(loadJson(folder / "absent.json"), Error);
+	const TempFolder folder;
+	saveJson(folder.file("x.json"), json);
+	EXPECT_EQ(readFile(folder.file("x.json")), toText(json));
+	EXPECT_EQ(toText(loadJson(folder.file("x.json"))), toText(json));
+	write(folder, "bad.json", "{\"a\": ");
+	EXPECT_THROW(loadJson(folder.file("bad.json")), Error);
+	EXPECT_THROW(loadJson(folder.file("absent.json")), Error);
 }
 
 TEST(Report, SingleEstimateHasItsKeysAtTheTop)

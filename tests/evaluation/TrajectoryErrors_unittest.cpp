@@ -8,7 +8,7 @@
 #include <iostream>
 
 using namespace viwo;
-using namespace viwo::test;
+using namespace viwo::testing;
 
 namespace
 {

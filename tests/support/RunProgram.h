@@ -1,6 +1,6 @@
 #pragma once
 
-#include "TemporaryFolder.h"
+#include "TempFolder.h"
 
 #include <sys/wait.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace viwo::test
+namespace viwo::testing
 {
 struct ProgramResult
 {
@@ -31,18 +31,26 @@ inline std::string quoted(const std::string& word)
 	return text + "'";
 }
 
+/** Writes a file below the folder, making the folders that it needs; @return its full path. */
+inline std::string write(const TempFolder& folder, const std::string& name, const std::string& content)
+{
+	std::filesystem::create_directories(std::filesystem::path(folder.file(name)).parent_path());
+	writeFile(folder.file(name), content);
+	return folder.file(name);
+}
+
 /** Runs a program to its end, without a terminal. @param environment e.g. "VIWO_SHARE=/x", put before the command. */
 inline ProgramResult runProgram(const std::string& program, const std::vector<std::string>& arguments, const std::string& environment = {})
 {
-	const TemporaryFolder folder;
+	const TempFolder folder;
 	std::string command = environment + " " + quoted(program);
 	for (const auto& argument : arguments) command += " " + quoted(argument);
-	command += " </dev/null >" + quoted(folder / "out") + " 2>" + quoted(folder / "err");
+	command += " </dev/null >" + quoted(folder.file("out")) + " 2>" + quoted(folder.file("err"));
 	const int raw = std::system(command.c_str());
 	ProgramResult result;
 	result.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
-	result.out = readFile(folder / "out");
-	result.err = readFile(folder / "err");
+	result.out = readFile(folder.file("out"));
+	result.err = readFile(folder.file("err"));
 	return result;
 }
-}  // namespace viwo::test
+}  // namespace viwo::testing
