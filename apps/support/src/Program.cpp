@@ -86,6 +86,7 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 	std::string program = cli.get_name();
 	if (program.empty()) program = std::filesystem::path(argc > 0 ? argv[0] : "viwo").filename().string();
 	cli.name(program);
+	g_quiet = false;
 	cli.set_version_flag("--version", program + " (viwo) " + version());
 	cli.add_flag("--quiet", g_quiet, "Print results and errors only: no progress, no remarks");
 	try

@@ -1,0 +1,139 @@
+#include "RunProgram.h"
+
+#include <viwo/app/Program.h>
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace viwo;
+using namespace viwo::testing;
+
+namespace
+{
+struct Outcome
+{
+	int status;
+	std::string out, err;
+};
+
+Outcome runWith(std::vector<std::string> arguments, const std::function<int()>& body)
+{
+	CLI::App cli{"A test", "viwo-test"};
+	int number = 0;
+	cli.add_option("--number", number, "A number");
+	arguments.insert(arguments.begin(), "viwo-test");
+	std::vector<char*> argv;
+	for (auto& argument : arguments) argv.push_back(argument.data());
+	::testing::internal::CaptureStdout();
+	::testing::internal::CaptureStderr();
+	const int status = app::run(cli, static_cast<int>(argv.size()), argv.data(), body);
+	std::string out = ::testing::internal::GetCapturedStdout();
+	return {status, std::move(out), ::testing::internal::GetCapturedStderr()};
+}
+}  // namespace
+
+TEST(Program, StatusIsTheBodys)
+{
+	for (const int status : {0, 1})
+	{
+		const Outcome outcome = runWith({}, [status] { return status; });
+		EXPECT_EQ(outcome.status, status);
+		EXPECT_EQ(outcome.err, "");
+	}
+}
+
+TEST(Program, ExceptionsBecomeOneLine)
+{
+	const Outcome known = runWith({}, []() -> int { throw Error("x.rawlog: missing; check its name"); });
+	EXPECT_EQ(known.status, 1);
+	EXPECT_EQ(known.err, "viwo-test: error: x.rawlog: missing; check its name\n");
+
+	const Outcome foreign = runWith({}, []() -> int { throw std::runtime_error("first\n\tsecond   line\n"); });
+	EXPECT_EQ(foreign.status, 1);
+	EXPECT_EQ(foreign.err, "viwo-test: error: first second line\n");
+
+	const Outcome odd = runWith({}, []() -> int { throw 7; });
+	EXPECT_EQ(odd.status, 1);
+	EXPECT_EQ(odd.err, "viwo-test: error: unknown failure\n");
+}
+
+TEST(Program, BadUsageIsStatusTwo)
+{
+	bool entered = false;
+	const Outcome unknown = runWith({"--nonsense"}, [&] { return entered = true, 0; });
+	EXPECT_EQ(unknown.status, 2);
+	EXPECT_NE(unknown.err.find("--nonsense"), std::string::npos);
+	EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1);
+	EXPECT_EQ(runWith({"--number", "abc"}, [&] { return entered = true, 0; }).status, 2);
+	EXPECT_FALSE(entered);
+
+	const Outcome contradictory = runWith({}, []() -> int { throw app::UsageError("--from lies behind --to"); });
+	EXPECT_EQ(contradictory.status, 2);
+	EXPECT_EQ(contradictory.err, "viwo-test: error: --from lies behind --to (see viwo-test --help)\n");
+}
+
+TEST(Program, HelpVersionQuiet)
+{
+	const Outcome help = runWith({"--help"}, [] { return 1; });
+	EXPECT_EQ(help.status, 0);
+	EXPECT_NE(help.out.find("--version"), std::string::npos);
+	const Outcome version = runWith({"--version"}, [] { return 1; });
+	EXPECT_EQ(version.status, 0);
+	EXPECT_EQ(version.out, "viwo-test (viwo) " + app::version() + "\n");
+	EXPECT_EQ(runWith({"--quiet"}, [] { return app::quiet() ? 0 : 1; }).status, 0);
+	EXPECT_EQ(runWith({}, [] { return app::quiet() ? 1 : 0; }).status, 0) << "a flag of an earlier run stays";
+}
+
+TEST(Program, SignalsSetAFlag)
+{
+	EXPECT_EQ(runWith({},
+	                  []
+	                  {
+		                  const bool before = app::interrupted();
+		                  std::raise(SIGINT);
+		                  return !before && app::interrupted() ? 0 : 1;
+	                  })
+	              .status,
+	          0);
+}
+
+TEST(Program, FindsSharedFiles)
+{
+	const TempFolder folder;
+	write(folder, "a/b.ini", "x");
+	setenv("VIWO_SHARE", folder.path().c_str(), 1);
+	EXPECT_EQ(app::findShare("a/b.ini"), folder.file("a/b.ini"));
+	try
+	{
+		app::findShare("a/absent.ini");
+		ADD_FAILURE() << "found a file that is not there";
+	}
+	catch (const Error& e)
+	{
+		EXPECT_NE(std::string(e.what()).find(folder.path()), std::string::npos) << e.what();
+		EXPECT_NE(std::string(e.what()).find("VIWO_SHARE"), std::string::npos);
+	}
+	unsetenv("VIWO_SHARE");
+}
+
+TEST(ProgressBar, Text)
+{
+	EXPECT_EQ(app::ProgressBar::render(0, -1, ""), "[....................]   0%  --:-- left");
+	EXPECT_EQ(app::ProgressBar::render(0.42, 12, "frame 7"), "[########............]  42%  00:12 left  frame 7");
+	EXPECT_EQ(app::ProgressBar::render(1.5, 3725, ""), "[####################] 100%  1:02:05 left");
+	EXPECT_EQ(app::ProgressBar::render(std::nan(""), 0, ""), "[....................]   0%  00:00 left");
+}
+
+TEST(ProgressBar, SilentInAPipe)
+{
+	::testing::internal::CaptureStderr();
+	{
+		app::ProgressBar bar;
+		bar.update(0.5, "note");
+	}
+	EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
