@@ -2,6 +2,7 @@
 
 #include "residuals/BlockAlgebra.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -12,25 +13,36 @@ namespace viwo
 {
 namespace
 {
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /** Weighs a linearised residual by the derivative of the loss (Triggs et al., "Bundle adjustment: a modern synthesis", Sec. 4.3),
  *  with Ceres' rule: no second-order term where the loss curves downwards. */
-void applyLoss(const ceres::LossFunction& loss, Eigen::VectorXd& r, Eigen::MatrixXd& J)
+class LossCorrection
 {
-	const double squared_norm = r.squaredNorm();
-	double rho[3];
-	loss.Evaluate(squared_norm, rho);
-	const double root = std::sqrt(rho[1]);
-	if (squared_norm == 0 || rho[2] <= 0)
+   public:
+	LossCorrection(const ceres::LossFunction& loss, const Eigen::Ref<const Eigen::VectorXd>& r) : squared_norm_(r.squaredNorm())
 	{
-		J *= root;
-		r *= root;
-		return;
+		double rho[3];
+		loss.Evaluate(squared_norm_, rho);
+		root_ = std::sqrt(rho[1]);
+		if (squared_norm_ > 0 && rho[2] > 0) alpha_ = 1 - std::sqrt(1 + 2 * squared_norm_ * rho[2] / rho[1]);
 	}
-	const double alpha = 1 - std::sqrt(1 + 2 * squared_norm * rho[2] / rho[1]);
-	const Eigen::RowVectorXd radial = r.transpose() * J;
-	J = root * (J - (alpha / squared_norm) * r * radial);
-	r *= root / (1 - alpha);
-}
+
+	/** @param r the residual before its own correction. */
+	void applyToJacobian(const Eigen::Ref<const Eigen::VectorXd>& r, Eigen::Map<RowMajorMatrix> J) const
+	{
+		if (alpha_ != 0)
+		{
+			const Eigen::RowVectorXd radial = r.transpose() * J;
+			J -= (alpha_ / squared_norm_) * r * radial;
+		}
+		J *= root_;
+	}
+	void applyToResidual(Eigen::Map<Eigen::VectorXd>& r) const { r *= root_ / (1 - alpha_); }
+
+   private:
+	double squared_norm_, root_ = 1, alpha_ = 0;
+};
 
 /** A = diag(d) V diag(s) V^T diag(d) with d^2 the diagonal of A; only eigenvalues that count are kept. */
 struct ScaledEigen
@@ -62,13 +74,36 @@ void Marginalizer::eliminate(double* block)
 	to_eliminate_[block] = true;
 }
 
-MarginalizationResult Marginalizer::run()
+void Marginalizer::assemble()
 {
 	collectBlocks();
 	freezeFactors();
 	assignColumns();
 	for (size_t i = 0; i < factors_.size(); ++i) accumulate(factors_[i], factor_blocks_[i]);
 	eliminateLandmarks();
+}
+
+bool Marginalizer::remainingInformation(std::vector<double*>& blocks, Eigen::MatrixXd& information)
+{
+	assemble();
+	// Eliminated columns come first, so the last rows of the Cholesky factor are that of the Schur complement.
+	const Eigen::VectorXd scale = H_.diagonal().cwiseSqrt();
+	if (!(scale.minCoeff() > 0)) return false;
+	const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
+	const Eigen::LLT<Eigen::MatrixXd> llt(inverse_scale.asDiagonal() * H_ * inverse_scale.asDiagonal());
+	if (llt.info() != Eigen::Success) return false;
+	const int remaining = size_ - dense_size_;
+	const Eigen::MatrixXd L = scale.tail(remaining).asDiagonal() * Eigen::MatrixXd(llt.matrixL()).bottomRightCorner(remaining, remaining);
+	information = L * L.transpose();
+	blocks.clear();
+	for (const Block& block : blocks_)
+		if (!block.eliminated) blocks.push_back(block.data);
+	return true;
+}
+
+MarginalizationResult Marginalizer::run()
+{
+	assemble();
 	eliminateDense();
 	MarginalizationResult result;
 	factorize(result);
@@ -146,49 +181,46 @@ void Marginalizer::assignColumns()
 
 void Marginalizer::accumulate(const Factor& factor, const std::vector<size_t>& ids)
 {
-	using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+	// Some thousand small factors a frame: workspaces are kept, and products are evaluated in place (lazily), without temporaries.
 	const Eigen::Index rows = factor.cost->num_residuals();
 	Eigen::Index columns = 0;
 	for (const size_t id : ids) columns += blocks_[id].shape.tangent;
-
-	std::vector<double> buffer(static_cast<size_t>(rows * columns));
-	std::vector<double*> pointers(ids.size());
-	std::vector<Eigen::Index> starts(ids.size());
-	Eigen::Index start = 0;
+	workspace_.resize(static_cast<size_t>(rows * (columns + 1)));
+	pointers_.resize(ids.size());
+	double* next = workspace_.data() + rows;
 	for (size_t i = 0; i < ids.size(); ++i)
 	{
-		starts[i] = start;
-		pointers[i] = buffer.data() + rows * start;
-		start += blocks_[ids[i]].shape.tangent;
+		pointers_[i] = next;
+		next += rows * blocks_[ids[i]].shape.tangent;
 	}
-	Eigen::VectorXd r(rows);
-	if (!factor.cost->linearize(factor.blocks.data(), r.data(), pointers.data()))
+	Eigen::Map<Eigen::VectorXd> r(workspace_.data(), rows);
+	if (!factor.cost->linearize(factor.blocks.data(), r.data(), pointers_.data()))
 	{
 		++skipped_factors_;
 		return;
 	}
-	Eigen::MatrixXd J(rows, columns);
-	for (size_t i = 0; i < ids.size(); ++i)
-		J.middleCols(starts[i], blocks_[ids[i]].shape.tangent) =
-		    Eigen::Map<const RowMajor>(pointers[i], rows, blocks_[ids[i]].shape.tangent);
-	if (factor.loss) applyLoss(*factor.loss, r, J);
-
-	const Eigen::MatrixXd JtJ = J.transpose() * J;
-	const Eigen::VectorXd Jtr = J.transpose() * r;
+	const auto jacobian = [&](size_t i) { return Eigen::Map<RowMajorMatrix>(pointers_[i], rows, blocks_[ids[i]].shape.tangent); };
+	if (factor.loss)
+	{
+		const LossCorrection correction(*factor.loss, r);
+		for (size_t i = 0; i < ids.size(); ++i) correction.applyToJacobian(r, jacobian(i));
+		correction.applyToResidual(r);
+	}
 	for (size_t i = 0; i < ids.size(); ++i)
 	{
 		const Block& a = blocks_[ids[i]];
+		const auto Ja = jacobian(i);
 		if (a.landmark)
 		{
-			landmark_h_[a.offset] += JtJ(starts[i], starts[i]);
-			landmark_g_[a.offset] += Jtr[starts[i]];
+			landmark_h_[a.offset] += Ja.squaredNorm();
+			landmark_g_[a.offset] += Ja.col(0).dot(r);
 			continue;
 		}
-		g_.segment(a.offset, a.shape.tangent) += Jtr.segment(starts[i], a.shape.tangent);
+		g_.segment(a.offset, a.shape.tangent) += Ja.transpose().lazyProduct(r);
 		for (size_t j = 0; j < ids.size(); ++j)
 		{
 			const Block& b = blocks_[ids[j]];
-			const auto product = JtJ.block(starts[i], starts[j], a.shape.tangent, b.shape.tangent);
+			const auto product = Ja.transpose().lazyProduct(jacobian(j));
 			if (b.landmark)
 				landmark_H_.col(b.offset).segment(a.offset, a.shape.tangent) += product;
 			else

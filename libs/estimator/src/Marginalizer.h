@@ -61,6 +61,11 @@ class Marginalizer
 	/** Freezes the added costs where a linearisation point is known. The blocks themselves are only read. */
 	MarginalizationResult run();
 
+	/** Only the information matrix of the blocks that remain, in order of first appearance, by Cholesky: cheaper than run().
+	 *  @return false where the eliminated states are not determined by the factors.
+	 */
+	bool remainingInformation(std::vector<double*>& blocks, Eigen::MatrixXd& information);
+
    private:
 	struct Block
 	{
@@ -73,6 +78,7 @@ class Marginalizer
 	};
 
 	size_t indexOf(double* data, const BlockShape& shape);
+	void assemble();
 	void collectBlocks();
 	void freezeFactors();
 	void assignColumns();
@@ -93,5 +99,7 @@ class Marginalizer
 	Eigen::MatrixXd landmark_H_;  //!< column k: coupling of landmark k
 	Eigen::VectorXd landmark_h_, landmark_g_;
 	int skipped_factors_ = 0;
+	std::vector<double> workspace_;
+	std::vector<double*> pointers_;
 };
 }  // namespace viwo

@@ -84,7 +84,7 @@ Matrix6 WheelPreintegration::twistNoise(const WheelSegment& segment) const
 	Q(kLateral, kLateral) = square(noise_.lateral_m_s_sqrtHz);
 	Q(kVertical, kVertical) = square(noise_.vertical_m_s_sqrtHz);
 	Q(kRoll, kRoll) = Q(kPitch, kPitch) = square(noise_.tilt_rad_s_sqrtHz);
-	return Q / segment.dt_s;
+	return segment.variance_scale / segment.dt_s * Q;
 }
 
 /** Of the segment's twist with respect to (k_left, k_right, track_m). */
@@ -113,6 +113,12 @@ void WheelPreintegration::append(const WheelPreintegration& next)
 	dt_s_ += next.dt_s_;
 	distance_m_ += next.distance_m_;
 	segments_.insert(segments_.end(), next.segments_.begin(), next.segments_.end());
+}
+
+void WheelPreintegration::scaleCovariance(double factor)
+{
+	for (WheelSegment& segment : segments_) segment.variance_scale *= factor;
+	covariance_ *= factor;
 }
 
 void WheelPreintegration::reset()

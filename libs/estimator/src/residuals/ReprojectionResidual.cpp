@@ -34,7 +34,7 @@ bool ReprojectionResidual::evaluateLocal(double const* const* x, double* residua
 	const Eigen::Vector3d x_Bi = R_CB.transpose() * b_i_ + lambda * T_BC.p;
 	const Eigen::Vector3d x_Bj = R_BjW * (R_BiW.transpose() * x_Bi + lambda * (T_i.p - T_j.p));
 	const Eigen::Vector3d f = R_CB * (x_Bj - lambda * T_BC.p);
-	if (!(lambda > 0) || !(b_j_.dot(f) > 0)) return false;
+	if (!(b_j_.dot(f) > 0)) return false;
 
 	const double norm = f.norm();
 	const Eigen::Vector3d u = f / norm;
@@ -57,7 +57,7 @@ bool ReprojectionResidual::valid(const double* T_WB_i, const double* T_WB_j, con
 {
 	const double* x[] = {T_WB_i, T_WB_j, T_BC, lambda};
 	double residuals[2];
-	return evaluateLocal(x, residuals, nullptr);
+	return lambda[0] > 0 && evaluateLocal(x, residuals, nullptr);
 }
 
 Eigen::Matrix<double, 3, 2> ReprojectionResidual::tangentBasis(const Eigen::Vector3d& b)

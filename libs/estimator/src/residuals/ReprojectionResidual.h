@@ -15,8 +15,9 @@ namespace viwo
  *      f    = R_BC^T (x_Bj - lambda p_BC)                    (in C_j)
  *      r    = A^T f / |f| / sigma,   df/|f| = (I - u u^T) df / |f|,  u = f / |f|
  *
- *  A: two tangents of the measured bearing b_j (3x2). The error is also zero where f points away from b_j, so b_j^T f <= 0 is not valid,
- *  nor is lambda <= 0.
+ *  A: two tangents of the measured bearing b_j (3x2). The error is also zero where f points away from b_j, so b_j^T f <= 0 is not valid.
+ *  A lambda <= 0 is beyond infinity: valid() refuses it, but the residual goes on smoothly, so that one far landmark whose step overshoots does not
+ *  make the solver reject the step of all states.
  *
  *  Blocks: pose T_WB_i, pose T_WB_j, pose T_BC, inverse depth lambda (1/m). Two residuals.
  */

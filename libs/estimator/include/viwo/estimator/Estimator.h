@@ -1,0 +1,119 @@
+#pragma once
+
+#include <viwo/core/Calibration.h>
+#include <viwo/core/FeatureFrame.h>
+#include <viwo/core/ImuSample.h>
+#include <viwo/core/NavState.h>
+#include <viwo/core/WheelSample.h>
+#include <viwo/estimator/EstimatorOptions.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace viwo
+{
+enum class Status
+{
+	waiting,  //!< nothing to work with yet
+	initialising,  //!< gathering data for the first pose
+	from_wheels,  //!< poses from wheels and IMU; landmarks are not known well enough yet
+	tracking,  //!< camera, IMU and (unless mode vio) wheels
+	dead_reckoning	//!< camera lost: IMU and wheels carry on
+};
+
+const char* toString(Status status);
+
+/** A change of status, with its cause in words. */
+struct StatusChange
+{
+	int64_t t_ns = 0;
+	Status from = Status::waiting, to = Status::waiting;
+	std::string cause;
+};
+
+/** What one frame gave. */
+struct FrameEstimate
+{
+	int64_t t_ns = 0;
+	bool has_pose = false;
+	Status status = Status::waiting;
+	NavState state;	 //!< of B in W
+	Pose3 T_WO;
+	/** Of T_WO relative to the first pose: position in W's axes (m), rotation vector in O's axes (rad, right perturbation): x y z roll pitch yaw. */
+	Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+	bool slip = false;
+	bool standing = false;
+	int landmarks = 0;	//!< of known depth, in the window
+	int features = 0;
+};
+
+struct LandmarkPoint
+{
+	uint64_t id = 0;
+	Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
+	double depth_deviation = 0;	 //!< relative deviation of the inverse depth
+};
+
+struct EstimatorCounters
+{
+	int frames = 0;
+	int keyframes = 0;
+	int slip_events = 0;
+	int reinitializations = 0;
+	int standstills = 0;
+	int imu_gaps = 0;
+	int wheel_gaps = 0;
+};
+
+/** Calibration as estimated so far. */
+struct CalibrationEstimate
+{
+	Pose3 T_BC;
+	WheelIntrinsics wheels;
+	double plane_tilt_x_rad = 0, plane_tilt_y_rad = 0, plane_height_m = 0;
+};
+
+/** Sliding-window estimator of Niu et al., Sec. 4 to 6: samples and tracks in, states out. Knows no image, no file and no clock.
+ *  Deterministic; throws nothing: how it went is in the status.
+ */
+class Estimator
+{
+   public:
+	/** Called with the name of a stage at its begin and at its end, for profiling. */
+	using StageHook = std::function<void(const char* stage, bool begin)>;
+
+	Estimator(const EstimatorOptions& options, const Calibration& calibration);
+	~Estimator();
+	Estimator(const Estimator&) = delete;
+	Estimator& operator=(const Estimator&) = delete;
+
+	/** Stamps strictly increasing per sensor; others are ignored and false is returned. */
+	bool addImu(const ImuSample& sample);
+	bool addWheels(const WheelSample& sample);
+
+	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. */
+	FrameEstimate addFrame(const FeatureFrame& frame);
+
+	/** R_Cprev_Ccur from the gyro between two stamps, less the estimated bias; identity where the IMU does not cover them. */
+	Eigen::Quaterniond predictCameraRotation(int64_t t_prev_ns, int64_t t_cur_ns) const;
+
+	/** The last frame's state carried on by the IMU: one state per IMU sample in (t_after_ns, t_until_ns], before the next frame is added. */
+	std::vector<NavState> propagate(int64_t t_after_ns, int64_t t_until_ns) const;
+
+	Status status() const;
+	const std::vector<StatusChange>& statusChanges() const;
+	const EstimatorCounters& counters() const;
+	/** Landmarks of the window, in W. */
+	std::vector<LandmarkPoint> landmarks() const;
+	CalibrationEstimate calibration() const;
+
+	void setStageHook(StageHook hook);
+
+   private:
+	struct Impl;
+	std::unique_ptr<Impl> impl_;
+};
+}  // namespace viwo

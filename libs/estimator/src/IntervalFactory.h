@@ -1,0 +1,40 @@
+#pragma once
+
+#include "Frame.h"
+#include "SampleBuffer.h"
+
+#include <viwo/estimator/EstimatorOptions.h>
+
+namespace viwo
+{
+struct Window;
+
+/** Cuts the sample streams at frame times and preintegrates them. All intervals share one linearisation point (biases, wheel intrinsics), so that
+ *  any two neighbours can be composed; when the estimate has moved away from it, all of them are integrated anew.
+ */
+class IntervalFactory
+{
+   public:
+	IntervalFactory(const EstimatorOptions& options, const WheelIntrinsics& nominal);
+
+	/** The motion between two frames. `imu` is null where the stream has a hole longer than reinitialize_after_gap_s, `wheels` where it has one
+	 *  longer than max_wheel_gap_s; shorter ones are bridged and counted.
+	 */
+	Interval between(const ImuBuffer& imu, const WheelBuffer& wheels, int64_t t_begin_ns, int64_t t_end_ns);
+
+	/** Moves the linearisation point to the latest frame's estimate where it has drifted from it, with all intervals of the window. */
+	void relinearize(Window& window);
+
+	/** Sets the point without looking at drift (start of a window). */
+	void relinearizeAt(Window& window, const Eigen::Vector3d& b_a, const Eigen::Vector3d& b_g);
+
+	int imuGaps() const { return imu_gaps_; }
+	int wheelGaps() const { return wheel_gaps_; }
+
+   private:
+	EstimatorOptions options_;
+	Eigen::Vector3d b_a_ = Eigen::Vector3d::Zero(), b_g_ = Eigen::Vector3d::Zero();
+	WheelIntrinsics wheels_;
+	int imu_gaps_ = 0, wheel_gaps_ = 0;
+};
+}  // namespace viwo

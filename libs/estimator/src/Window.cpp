@@ -1,0 +1,155 @@
+#include "Window.h"
+
+#include "ImuPreintegration.h"
+#include "WheelPreintegration.h"
+#include "residuals/BlockAlgebra.h"
+#include "residuals/ImuResidual.h"
+#include "residuals/LinearPrior.h"
+#include "residuals/PairPlaneResidual.h"
+#include "residuals/PlaneResidual.h"
+#include "residuals/ReprojectionResidual.h"
+#include "residuals/StandstillResidual.h"
+#include "residuals/StatePrior.h"
+#include "residuals/WheelResidual.h"
+
+#include <ceres/loss_function.h>
+
+#include <unordered_map>
+
+namespace viwo
+{
+namespace
+{
+constexpr double kDegree = M_PI / 180;
+/** Where the plane factor gives way, in sigma: a ramp or a bump is not to bend the window. */
+constexpr double kPlaneGate = 3;
+
+LandmarkMap::Settings landmarkSettings(const EstimatorOptions& o, const CameraModel& camera)
+{
+	const double f_px = camera.meanFocal_px() > 0 ? camera.meanFocal_px() : 1;
+	LandmarkMap::Settings s;
+	s.sigma_rad = o.noise.pixel_sigma_px / f_px;
+	s.outlier_rad = o.window.outlier_px / f_px;
+	s.prior_mean_1_m = o.priors.inverse_depth_mean_1_m;
+	s.prior_sigma_1_m = o.priors.inverse_depth_sigma_1_m;
+	s.known_deviation = o.window.tracking_depth_deviation;
+	return s;
+}
+
+void addInertial(Window& w, std::vector<Factor>& factors)
+{
+	for (size_t i = 1; i < w.frames.size(); ++i)
+	{
+		Frame& a = *w.frames[i - 1];
+		Frame& b = *w.frames[i];
+		if (!b.interval.imu) continue;
+		if (!b.imu_factor) b.imu_factor = std::make_shared<ImuResidual>(*b.interval.imu, w.options.noise.gravity_m_s2);
+		factors.push_back({b.imu_factor, nullptr, {a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data()}});
+	}
+}
+
+void addWheels(Window& w, std::vector<Factor>& factors)
+{
+	if (!w.options.useWheelFactor()) return;
+	for (size_t i = 1; i < w.frames.size(); ++i)
+	{
+		Frame& a = *w.frames[i - 1];
+		Frame& b = *w.frames[i];
+		if (!b.interval.wheels) continue;
+		if (!b.wheel_factor) b.wheel_factor = std::make_shared<WheelResidual>(*b.interval.wheels, w.calibration.T_BO());
+		factors.push_back({b.wheel_factor, nullptr, {a.pose.data(), b.pose.data(), w.wheels.data()}});
+	}
+}
+
+void addFloor(Window& w, std::vector<Factor>& factors)
+{
+	static const auto loss = std::make_shared<ceres::CauchyLoss>(kPlaneGate);
+	const double sigma_tilt_rad = w.options.priors.plane_factor_tilt_deg * kDegree;
+	const double sigma_height_m = w.options.priors.plane_factor_height_m;
+	const bool pairwise = w.options.factors.plane_pairwise;
+	for (auto& frame : w.frames)
+	{
+		if (frame->standing && w.options.factors.standstill_factor)
+		{
+			if (!frame->standstill_factor)
+				frame->standstill_factor = std::make_shared<StandstillResidual>(w.options.priors.standstill_velocity_m_s);
+			factors.push_back({frame->standstill_factor, nullptr, {frame->motion.data()}});
+		}
+		if (!w.options.usePlaneFactor() || (pairwise && frame == w.frames.front())) continue;
+		if (!frame->plane_factor && pairwise)
+			frame->plane_factor = std::make_shared<PairPlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
+		if (!frame->plane_factor) frame->plane_factor = std::make_shared<PlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
+		double* const reference = pairwise ? w.frames.front()->pose.data() : w.plane().data();
+		if (pairwise)
+			factors.push_back({frame->plane_factor, loss, {reference, frame->pose.data()}});
+		else
+			factors.push_back({frame->plane_factor, loss, {frame->pose.data(), reference}});
+	}
+}
+
+void addLandmarks(Window& w, std::vector<Factor>& factors)
+{
+	const LandmarkMap::Settings& settings = w.landmarks.settings();
+	static const BlockShape scalar = BlockShape::euclidean(1);
+	const auto loss = std::make_shared<ceres::HuberLoss>(w.options.window.huber_px / w.options.noise.pixel_sigma_px);
+	for (auto& [id, landmark] : w.landmarks.all())
+	{
+		if (!landmark.in_use) continue;
+		if (!landmark.prior_factor)
+			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, settings.prior_sigma_1_m));
+		factors.push_back({landmark.prior_factor, nullptr, {&landmark.inverse_depth_1_m}});
+		double* const anchor = landmark.anchor().pose.data();
+		for (size_t i = 1; i < landmark.sightings.size(); ++i)
+		{
+			Sighting& s = landmark.sightings[i];
+			if (!s.factor) s.factor = std::make_shared<ReprojectionResidual>(landmark.sightings.front().bearing_C, s.bearing_C, settings.sigma_rad);
+			if (!s.factor->valid(anchor, s.frame->pose.data(), w.T_BC.data(), &landmark.inverse_depth_1_m)) continue;
+			factors.push_back({s.factor, loss, {anchor, s.frame->pose.data(), w.T_BC.data(), &landmark.inverse_depth_1_m}});
+		}
+	}
+}
+
+void takeFirstEstimates(const Window& w, std::vector<Factor>& factors)
+{
+	std::unordered_map<const double*, const double*> x0;  // looked up only, never walked through
+	for (size_t i = 0; i < w.prior_blocks.size(); ++i) x0[w.prior_blocks[i]] = w.prior->linearizationPoint(static_cast<int>(i));
+	for (Factor& factor : factors)
+		for (size_t i = 0; i < factor.blocks.size(); ++i)
+		{
+			const auto held = x0.find(factor.blocks[i]);
+			factor.cost->freeze(static_cast<int>(i), held == x0.end() ? nullptr : held->second);
+		}
+}
+}  // namespace
+
+Window::Window(const EstimatorOptions& o, const Calibration& c) : options(o), calibration(c), landmarks(landmarkSettings(o, c.camera)) { clear(); }
+
+void Window::clear()
+{
+	frames.clear();
+	landmarks.clear();
+	poseToBlock(calibration.T_BC(), T_BC.data());
+	wheels = {calibration.wheels.k_left, calibration.wheels.k_right, calibration.wheels.track_m};
+	planes = {};
+	current_plane = 0;
+	start_priors.clear();
+	prior.reset();
+	prior_blocks.clear();
+}
+
+Pose3 Window::T_BC_pose() const { return poseFromBlock(T_BC.data()); }
+
+WheelIntrinsics Window::wheelIntrinsics() const { return {wheels[0], wheels[1], wheels[2]}; }
+
+std::vector<Factor> collectFactors(Window& window)
+{
+	std::vector<Factor> factors = window.start_priors;
+	addInertial(window, factors);
+	addWheels(window, factors);
+	addFloor(window, factors);
+	addLandmarks(window, factors);
+	takeFirstEstimates(window, factors);
+	if (window.prior) factors.push_back({window.prior, nullptr, window.prior_blocks});
+	return factors;
+}
+}  // namespace viwo

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "Frame.h"
+#include "LandmarkMap.h"
+#include "Marginalizer.h"
+
+#include <viwo/core/Calibration.h>
+#include <viwo/estimator/EstimatorOptions.h>
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace viwo
+{
+class LinearPrior;
+
+/** All states of the sliding window (paper Eq. 14) and what is known of them beside the measurements. Plain data: the algorithms stand beside it. */
+struct Window
+{
+	Window(const EstimatorOptions& options, const Calibration& calibration);
+
+	/** Back to the state after construction: no frame, nominal calibration. */
+	void clear();
+
+	EstimatorOptions options;
+	Calibration calibration;
+
+	std::deque<std::unique_ptr<Frame>> frames;	//!< oldest first; addresses of the states are stable
+	LandmarkMap landmarks;
+
+	std::array<double, 7> T_BC{};
+	std::array<double, 3> wheels{};	 //!< k_left, k_right, track_m
+	std::array<double, 3>& plane() { return planes[static_cast<size_t>(current_plane)]; }
+	const std::array<double, 3>& plane() const { return planes[static_cast<size_t>(current_plane)]; }
+	std::array<std::array<double, 3>, 2> planes{};	//!< the floor now, and room for the next one (its random walk)
+	int current_plane = 0;
+
+	std::vector<Factor> start_priors;  //!< of the initial states, until marginalisation takes them in
+	std::shared_ptr<LinearPrior> prior;	 //!< what marginalisation has left; null before the first
+	std::vector<double*> prior_blocks;
+
+	Frame& latest() { return *frames.back(); }
+	const Frame& latest() const { return *frames.back(); }
+	Pose3 T_BC_pose() const;
+	WheelIntrinsics wheelIntrinsics() const;
+};
+
+/** Every factor of the window in a fixed order, with first-estimate Jacobians on the states that the prior holds. Whether a landmark's sighting is
+ *  defined at the present states is looked at here.
+ */
+std::vector<Factor> collectFactors(Window& window);
+}  // namespace viwo

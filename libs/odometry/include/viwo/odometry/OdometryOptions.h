@@ -1,0 +1,31 @@
+#pragma once
+
+#include <viwo/estimator/EstimatorOptions.h>
+#include <viwo/frontend/TrackerOptions.h>
+#include <viwo/rawlog/ObservationAdapter.h>
+
+#include <string>
+#include <vector>
+
+namespace viwo
+{
+/** Everything that viwo-odometry can be told by a configuration file. */
+struct OdometryOptions
+{
+	AdapterOptions rawlog;
+	TrackerOptions tracker;
+	EstimatorOptions estimator;
+
+	/** Without images for this long, poses are given from IMU and wheels at blind_period_s. */
+	static constexpr double blind_after_s = 0.35;
+	static constexpr double blind_period_s = 0.1;
+	/** How long an image waits for IMU and wheel samples that reach up to it, by the log's clock. */
+	static constexpr double max_wait_s = 0.3;
+
+	/** The sections [rawlog], [tracker], [factors], [noise], [priors], [window]. */
+	std::vector<OptionsSection> sections();
+
+	/** @throws Error that names file, section and key. */
+	void load(const std::string& ini_path) { loadOptions(ini_path, sections()); }
+};
+}  // namespace viwo

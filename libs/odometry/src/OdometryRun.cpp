@@ -1,0 +1,180 @@
+#include <viwo/core/Error.h>
+#include <viwo/core/Time.h>
+#include <viwo/odometry/Odometry.h>
+#include <viwo/odometry/OdometryRun.h>
+#include <viwo/rawlog/MrptTime.h>
+#include <viwo/rawlog/RawlogReader.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <thread>
+
+#include "RunOutputs.h"
+#include "RunSummary.h"
+
+namespace viwo
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+/** Landmarks of the window are collected this often. */
+constexpr int kFramesBetweenLandmarks = 5;
+
+class Run
+{
+   public:
+	Run(const OdometryRunOptions& options, const OdometryRunHooks& hooks)
+		: options_(options), hooks_(hooks), outputs_(options.output_dir, options.pose_frame), reader_(options.rawlog, readerOptions(options)),
+		  odometry_(options.odometry, calibrationOf(options)), begin_(Clock::now())
+	{
+		odometry_.setMinLoggingLevel(mrpt::system::LVL_WARN);
+		odometry_.onFrame([this](const FrameEstimate& e) { take(e); });
+		odometry_.onImuRate([this](const NavState& s) { outputs_.add(s, *odometry_.calibration(), odometry_.calibrationEstimate().T_BC); });
+	}
+
+	OdometryRunResult go()
+	{
+		// What was computed before an error is written like that of a whole run, and the error told afterwards.
+		std::exception_ptr error;
+		try
+		{
+			replay();
+		}
+		catch (const Error&)
+		{
+			error = std::current_exception();
+		}
+		if (!error || result_.poses > 0) finish(error != nullptr);
+		if (error) std::rethrow_exception(error);
+		if (result_.poses == 0) throw Error(noPose());
+		return result_;
+	}
+
+   private:
+	static RawlogReaderOptions readerOptions(const OdometryRunOptions& options)
+	{
+		const AdapterOptions& labels = options.odometry.rawlog;
+		RawlogReaderOptions r;
+		r.labels = {labels.cam_label, labels.imu_label, labels.odometry_label};
+		r.action_odometry_label = labels.odometry_label;
+		r.allow_truncated = options.allow_truncated;
+		return r;
+	}
+
+	static Calibration calibrationOf(const OdometryRunOptions& options)
+	{
+		const EstimatorOptions& e = options.odometry.estimator;
+		return readCalibration(options.rawlog, options.odometry.rawlog, e.useCamera(), e.useImu(), true);
+	}
+
+	void replay()
+	{
+		while (const auto observation = reader_.next())
+		{
+			if (hooks_.interrupted && hooks_.interrupted())
+			{
+				result_.interrupted = true;
+				break;
+			}
+			const int64_t t_ns = nanosecondsOf(observation->timestamp);
+			if (!first_ns_) first_ns_ = t_ns;
+			const double t_s = secondsBetween(*first_ns_, t_ns);
+			if (t_s < options_.from_s) continue;
+			if (t_s > options_.to_s) break;
+			keepPace(t_s);
+			odometry_.processObservation(observation);
+		}
+		odometry_.finish();
+	}
+
+	/** Real-time replay: waits for the log's clock; when behind it, says so and goes on without dropping anything. */
+	void keepPace(double t_s)
+	{
+		if (options_.replay_speed <= 0) return;
+		const double due_s = (t_s - options_.from_s) / options_.replay_speed;
+		const double now_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+		lag_s_ = std::max(0.0, now_s - due_s);
+		if (due_s > now_s) std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s));
+	}
+
+	void take(const FrameEstimate& e)
+	{
+		++result_.frames;
+		last_frame_ns_ = e.t_ns;
+		outputs_.add(e, *odometry_.calibration(), odometry_.calibrationEstimate().T_BC);
+		result_.poses = outputs_.poses();
+		if (result_.frames % kFramesBetweenLandmarks == 0) collectLandmarks();
+		if (hooks_.log)
+			for (const auto changes = odometry_.statusChanges(); told_ < changes.size(); ++told_) tell(changes[told_]);
+		if (hooks_.progress) hooks_.progress(reader_.progress(), note(e));
+	}
+
+	void collectLandmarks() { outputs_.add(odometry_.landmarks(), options_.odometry.estimator.window.tracking_depth_deviation); }
+
+	void tell(const StatusChange& c) const
+	{
+		char text[64];
+		std::snprintf(text, sizeof text, "%8.2f s  ", secondsBetween(odometry_.firstFrame_ns(), c.t_ns));
+		hooks_.log(std::string(text) + toString(c.from) + " -> " + toString(c.to) + ": " + c.cause);
+	}
+
+	std::string note(const FrameEstimate& e) const
+	{
+		char text[160];
+		std::snprintf(text, sizeof text, "%.1f s %s, %d features, x %.2f y %.2f m, sigma %.3f m", secondsBetween(odometry_.firstFrame_ns(), e.t_ns),
+			toString(e.status), e.features, e.T_WO.p.x(), e.T_WO.p.y(), std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)));
+		std::string line = text;
+		if (lag_s_ > 0.2)
+		{
+			std::snprintf(text, sizeof text, ", %.1f s behind", lag_s_);
+			line += text;
+		}
+		return line;
+	}
+
+	void finish(bool failed)
+	{
+		collectLandmarks();
+		result_.wall_time_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+		result_.duration_s = result_.frames > 0 ? secondsBetween(odometry_.firstFrame_ns(), last_frame_ns_) : 0;
+		result_.path_length_m = outputs_.pathLength_m();
+		result_.final_status = failed ? "failed" : toString(odometry_.status());
+		result_.summary_path = options_.output_dir + "/summary.json";
+		outputs_.commit();
+		OdometryOptions effective = options_.odometry;
+		saveOptions(options_.output_dir + "/config.ini", effective.sections(),
+			"Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " + modeNames()[static_cast<size_t>(effective.estimator.mode)]);
+		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts());
+	}
+
+	std::string noPose() const
+	{
+		const std::string where = options_.rawlog + ": no pose: ";
+		if (result_.frames == 0) return where + "no frame was processed; in the log: " + reader_.counts().describe();
+		const auto changes = odometry_.statusChanges();
+		return where + "the estimator is still " + toString(odometry_.status()) + " after " + std::to_string(result_.frames) + " frames" +
+			   (options_.odometry.estimator.mode == Mode::vio ? "; mode vio needs motion with parallax and acceleration" : "; see summary.json");
+	}
+
+	const OdometryRunOptions& options_;
+	const OdometryRunHooks& hooks_;
+	RunOutputs outputs_;
+	RawlogReader reader_;
+	Odometry odometry_;
+	Clock::time_point begin_;
+	OdometryRunResult result_;
+	std::optional<int64_t> first_ns_;
+	int64_t last_frame_ns_ = 0;
+	double lag_s_ = 0;
+	size_t told_ = 0;
+};
+}  // namespace
+
+OdometryRunResult runOdometry(const OdometryRunOptions& options, const OdometryRunHooks& hooks)
+{
+	Run run(options, hooks);
+	return run.go();
+}
+}  // namespace viwo

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <viwo/core/AtomicFile.h>
+#include <viwo/odometry/Odometry.h>
+#include <viwo/odometry/OdometryRun.h>
+
+#include <map>
+#include <string>
+
+namespace viwo
+{
+/** The files of a run that grow with it. */
+class RunOutputs
+{
+   public:
+	/** @throws Error when the folder cannot be made or written. */
+	RunOutputs(const std::string& dir, PoseFrame frame);
+
+	void add(const FrameEstimate& estimate, const Calibration& calibration, const Pose3& T_BC);
+	void add(const NavState& state, const Calibration& calibration, const Pose3& T_BC);
+	void add(const std::vector<LandmarkPoint>& landmarks, double max_deviation);
+
+	/** Writes landmarks.ply and gives all files their names. */
+	void commit();
+
+	int poses() const { return poses_; }
+	double pathLength_m() const { return path_length_m_; }
+	int64_t firstPose_ns() const { return first_pose_ns_; }
+	int64_t lastPose_ns() const { return last_pose_ns_; }
+
+   private:
+	Pose3 inFrame(const Pose3& T_WB, const Calibration& calibration, const Pose3& T_BC) const;
+
+	std::string dir_;
+	PoseFrame frame_;
+	AtomicFile trajectory_, imu_rate_, covariance_;
+	std::map<uint64_t, LandmarkPoint> landmarks_;
+	int poses_ = 0;
+	double path_length_m_ = 0;
+	Eigen::Vector3d last_p_WO_ = Eigen::Vector3d::Zero();
+	int64_t first_pose_ns_ = 0, last_pose_ns_ = 0, last_imu_rate_ns_ = 0;
+};
+}  // namespace viwo

@@ -1,0 +1,115 @@
+#include "RunSummary.h"
+
+#include <sys/resource.h>
+#include <viwo/core/Time.h>
+
+#include <nlohmann/json.hpp>
+
+namespace viwo
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+double peakRss_mb()
+{
+	rusage usage{};
+	getrusage(RUSAGE_SELF, &usage);
+	return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+Json stagesJson(const StageTimes& times)
+{
+	Json stages = Json::object();
+	for (const std::string& name : times.stages())
+	{
+		const StageTimes::Statistics s = times.statistics(name);
+		stages[name] = {{"calls", s.calls}, {"mean", s.mean_ms}, {"median", s.median_ms}, {"p95", s.p95_ms}, {"max", s.max_ms}};
+	}
+	return stages;
+}
+
+Json observationsJson(const Odometry& odometry, const RawlogCounts& counts)
+{
+	Json observations = Json::object();
+	for (const auto& [key, sensor] : counts.sensors)
+	{
+		Json& entry = observations[key.first];
+		entry["class"] = key.second;
+		entry["read"] = sensor.read;
+		Json rejected = Json::object();
+		if (sensor.late) rejected["late"] = sensor.late;
+		if (sensor.unstamped) rejected["unstamped"] = sensor.unstamped;
+		if (sensor.missing_images) rejected["missing_image_file"] = sensor.missing_images;
+		const auto used = odometry.observationCounts().find(key.first);
+		entry["used"] = used == odometry.observationCounts().end() ? 0 : used->second.accepted;
+		if (used != odometry.observationCounts().end())
+			for (const auto& [reason, count] : used->second.rejected) rejected[reason] = count;
+		entry["rejected"] = rejected;
+	}
+	return observations;
+}
+
+Json statusJson(const Odometry& odometry)
+{
+	Json changes = Json::array();
+	for (const StatusChange& c : odometry.statusChanges())
+		changes.push_back({{"t_s", secondsBetween(odometry.firstFrame_ns(), c.t_ns)}, {"from", toString(c.from)}, {"to", toString(c.to)}, {"cause", c.cause}});
+	return changes;
+}
+
+/** Seconds from the first frame to the first time in a status; null where it never was. */
+Json timeToStatus(const Odometry& odometry, Status status)
+{
+	for (const StatusChange& c : odometry.statusChanges())
+		if (c.to == status) return secondsBetween(odometry.firstFrame_ns(), c.t_ns);
+	return nullptr;
+}
+
+Json calibrationJson(const Odometry& odometry)
+{
+	const CalibrationEstimate c = odometry.calibrationEstimate();
+	const auto& q = c.T_BC.R;
+	return {{"T_BC", {{"p_m", {c.T_BC.p.x(), c.T_BC.p.y(), c.T_BC.p.z()}}, {"q_xyzw", {q.x(), q.y(), q.z(), q.w()}}}},
+		{"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
+		{"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
+}
+}  // namespace
+
+void writeSummary(const std::string& path, const OdometryRunOptions& options, const OdometryRunResult& result, const Odometry& odometry,
+	const RunOutputs& outputs, const RawlogCounts& counts)
+{
+	const EstimatorCounters n = odometry.counters();
+	Json j;
+	j["program"] = "viwo-odometry " VIWO_VERSION;
+	j["rawlog"] = options.rawlog;
+	j["config"] = options.config_path;
+	j["mode"] = modeNames()[static_cast<size_t>(options.odometry.estimator.mode)];
+	j["pose_frame"] = options.pose_frame == PoseFrame::O ? "O" : options.pose_frame == PoseFrame::B ? "B" : "C";
+	j["status"] = result.final_status;
+	j["interrupted"] = result.interrupted;
+	j["frames"] = result.frames;
+	j["poses"] = result.poses;
+	j["keyframes"] = n.keyframes;
+	j["duration_s"] = result.duration_s;
+	j["path_length_m"] = result.path_length_m;
+	j["first_pose_s"] = outputs.poses() > 0 ? Json(secondsBetween(odometry.firstFrame_ns(), outputs.firstPose_ns())) : Json();
+	j["initialization_time_s"] = timeToStatus(odometry, Status::tracking);
+	j["coverage"] = result.duration_s > 0 ? secondsBetween(outputs.firstPose_ns(), outputs.lastPose_ns()) / result.duration_s : 0.0;
+	j["reinitializations"] = n.reinitializations;
+	j["slip_events"] = n.slip_events;
+	j["standstills"] = n.standstills;
+	j["imu_gaps"] = n.imu_gaps;
+	j["wheel_gaps"] = n.wheel_gaps;
+	j["status_changes"] = statusJson(odometry);
+	j["calibration"] = calibrationJson(odometry);
+	j["observations"] = observationsJson(odometry, counts);
+	j["wall_time_s"] = result.wall_time_s;
+	j["realtime_factor"] = result.wall_time_s > 0 ? result.duration_s / result.wall_time_s : 0.0;
+	j["peak_rss_mb"] = peakRss_mb();
+	j["stages_ms"] = stagesJson(odometry.stageTimes());
+	AtomicFile file(path);
+	file.stream() << j.dump(2) << "\n";
+	file.commit();
+}
+}  // namespace viwo

@@ -1,0 +1,38 @@
+#include <viwo/odometry/StageTimes.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace viwo
+{
+void StageTimes::begin(const std::string& stage) { stages_[stage].begin = std::chrono::steady_clock::now(); }
+
+void StageTimes::end(const std::string& stage)
+{
+	Stage& s = stages_[stage];
+	s.ms.push_back(std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - s.begin).count());
+}
+
+StageTimes::Statistics StageTimes::statistics(const std::string& stage) const
+{
+	Statistics result;
+	const auto it = stages_.find(stage);
+	if (it == stages_.end() || it->second.ms.empty()) return result;
+	std::vector<float> ms = it->second.ms;
+	std::sort(ms.begin(), ms.end());
+	const auto quantile = [&](double q) { return static_cast<double>(ms[static_cast<size_t>(q * static_cast<double>(ms.size() - 1))]); };
+	result.calls = ms.size();
+	result.mean_ms = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+	result.median_ms = quantile(0.5);
+	result.p95_ms = quantile(0.95);
+	result.max_ms = static_cast<double>(ms.back());
+	return result;
+}
+
+std::vector<std::string> StageTimes::stages() const
+{
+	std::vector<std::string> names;
+	for (const auto& [name, stage] : stages_) names.push_back(name);
+	return names;
+}
+}  // namespace viwo
