@@ -105,6 +105,7 @@ struct Estimator::Impl
 	void restart(int64_t t_ns, const std::string& cause);
 	Pose3 startPose(int64_t t_ns) const;
 	void report(FrameEstimate& out);
+	void updateStatus(int64_t t_ns);
 	void trimWaiting();
 };
 
@@ -234,7 +235,7 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 		return false;
 	}
 	window.landmarks.assess(window.T_BC_pose());
-	status.update(t_ns, window.landmarks.countKnown(window.latest()), options.useCamera());
+	updateStatus(t_ns);
 	return true;
 }
 
@@ -263,7 +264,7 @@ void Estimator::Impl::track(FrameEstimate& out)
 		return;
 	}
 	window.landmarks.assess(window.T_BC_pose());
-	status.update(latest.t_ns, window.landmarks.countKnown(latest), options.useCamera());
+	updateStatus(latest.t_ns);
 	intervals.relinearize(window);
 	report(out);
 }
@@ -315,6 +316,11 @@ Pose3 Estimator::Impl::startPose(int64_t t_ns) const
 	WheelPreintegration travelled(options.noise.wheels, calibration.wheels);
 	for (const WheelSegment& s : *segments) travelled.integrate(s);
 	return T_WO_last * Pose3(travelled.dR(), travelled.dp());
+}
+
+void Estimator::Impl::updateStatus(int64_t t_ns)
+{
+	if (options.useCamera()) status.update(t_ns, window.landmarks.countKnown(window.latest()), window.landmarks.countSeen(window.latest()));
 }
 
 void Estimator::Impl::trimWaiting()

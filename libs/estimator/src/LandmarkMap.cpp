@@ -163,4 +163,12 @@ int LandmarkMap::countKnown(const Frame& frame) const
 		if (landmark.in_use && landmark.deviation < settings_.known_deviation && landmark.sightings.back().frame == &frame) ++count;
 	return count;
 }
+
+int LandmarkMap::countSeen(const Frame& frame) const
+{
+	int count = 0;
+	for (const auto& [id, landmark] : landmarks_)
+		if (landmark.in_use && landmark.sightings.back().frame == &frame) ++count;
+	return count;
+}
 }  // namespace viwo

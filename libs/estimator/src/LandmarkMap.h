@@ -67,6 +67,8 @@ class LandmarkMap
 
 	/** Landmarks of known depth that this frame sees. */
 	int countKnown(const Frame& frame) const;
+	/** Landmarks in use, of whatever depth, that this frame sees. */
+	int countSeen(const Frame& frame) const;
 
 	std::map<uint64_t, Landmark>& all() { return landmarks_; }
 	const std::map<uint64_t, Landmark>& all() const { return landmarks_; }

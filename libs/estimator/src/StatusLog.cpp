@@ -4,6 +4,11 @@
 
 namespace viwo
 {
+namespace
+{
+constexpr int kCameraLost = 8;
+}
+
 const char* toString(Status status)
 {
 	switch (status)
@@ -25,18 +30,13 @@ void StatusLog::set(Status to, int64_t t_ns, const std::string& cause)
 	last_good_ns_ = t_ns;
 }
 
-void StatusLog::update(int64_t t_ns, int known_landmarks, bool has_camera)
+void StatusLog::update(int64_t t_ns, int known, int seen)
 {
-	if (!has_camera) return;
-	const std::string count = std::to_string(known_landmarks) + " landmarks of known depth";
-	if (known_landmarks >= options_.tracking_min_landmarks)
-	{
-		last_good_ns_ = t_ns;
-		set(Status::tracking, t_ns, count);
-	}
-	// Between the two thresholds nothing changes: a status that flickers tells nobody anything.
-	if (known_landmarks >= options_.tracking_min_landmarks / 3) last_good_ns_ = t_ns;
-	if (now_ == Status::tracking && secondsBetween(last_good_ns_, t_ns) > options_.dead_reckoning_after_s)
-		set(Status::dead_reckoning, t_ns, "only " + count + " for " + std::to_string(secondsBetween(last_good_ns_, t_ns)).substr(0, 4) + " s");
+	if (seen >= kCameraLost) last_good_ns_ = t_ns;
+	if (known >= options_.tracking_min_landmarks)
+		set(Status::tracking, t_ns, std::to_string(known) + " landmarks of known depth");
+	else if (now_ == Status::tracking && secondsBetween(last_good_ns_, t_ns) > options_.dead_reckoning_after_s)
+		set(Status::dead_reckoning, t_ns, "fewer than " + std::to_string(kCameraLost) + " landmarks in sight for " +
+			std::to_string(secondsBetween(last_good_ns_, t_ns)).substr(0, 4) + " s");
 }
 }  // namespace viwo

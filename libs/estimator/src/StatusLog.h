@@ -15,8 +15,11 @@ class StatusLog
 
 	void set(Status to, int64_t t_ns, const std::string& cause);
 
-	/** After a frame was solved: landmarks of known depth that it sees, and their number needed. */
-	void update(int64_t t_ns, int known_landmarks, bool has_camera);
+	/** After a frame was solved.
+	 *  @param known landmarks of known depth that it sees. @param seen landmarks that it sees at all: turning on the spot shows plenty of them, none with
+	 *  a depth, and is no loss of the camera.
+	 */
+	void update(int64_t t_ns, int known, int seen);
 
    private:
 	WindowOptions options_;

@@ -201,7 +201,10 @@ Odometry::Odometry(const OdometryOptions& options) : COutputLogger("viwo::Odomet
 
 Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration) : Odometry(options) { impl_->calibration = calibration; }
 
-Odometry::~Odometry() { profiler.clear(); }
+Odometry::~Odometry()
+{
+	profiler.clear(true);  // or it prints its statistics
+}
 
 void Odometry::processObservation(const mrpt::obs::CObservation::Ptr& observation)
 {
