@@ -150,7 +150,7 @@ Matrix6 drawnCovariance(SampleStream& stream)
 CovarianceDifference report(const char* what, const Matrix6& model, const Matrix6& drawn)
 {
 	const CovarianceDifference d = compareCovariances<6>(model, drawn);
-	std::cout << "[measured] " << what << ", " << kDraws << " draws: " << d << "\n";
+	std::cout << "[measured] " << what << ", " << monteCarloDraws(kDraws) << " draws: " << d << "\n";
 	return d;
 }
 }  // namespace
