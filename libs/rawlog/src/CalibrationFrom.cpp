@@ -39,7 +39,6 @@ Calibration readCalibration(const std::string& rawlog_path, const AdapterOptions
 {
 	RawlogReaderOptions reader_options;
 	reader_options.labels = {options.cam_label, options.imu_label};
-	reader_options.reorder_window_s = 0;
 	reader_options.allow_truncated = allow_truncated;
 	reader_options.skip_missing_images = true;
 	RawlogReader reader(rawlog_path, reader_options);

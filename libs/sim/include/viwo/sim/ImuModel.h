@@ -12,6 +12,7 @@ namespace viwo::sim
  * effect off. */
 struct ImuOptions : Options<ImuOptions>
 {
+	std::string label = "IMU";
 	double rate_hz = 200;
 	double phase_ms = 0;
 	std::vector<double> pose = {0.10, 0.02, 0.30, -90, 0, -90};
@@ -36,6 +37,7 @@ struct ImuOptions : Options<ImuOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
+		v("label", label, "sensor label in the rawlog");
 		v("rate_hz", rate_hz, "samples a second", 1.0, 10000.0);
 		v("phase_ms", phase_ms, "time of the first sample", 0.0, 1000.0);
 		v("pose", pose, "x y z (m) yaw pitch roll (deg) of B in O: published as sensorPose");
@@ -67,6 +69,9 @@ class ImuModel
 	/** Samples whose true times lie in [t_begin_s, t_end_s], in order of time. */
 	std::vector<ImuSample> samples(double t_begin_s, double t_end_s) const;
 	const std::vector<ImuSample>& samples() const { return samples_; }
+
+	/** True time of a sample, whatever its stamp says. */
+	double time_s(size_t index) const { return times_s_[index]; }
 
 	/** True biases of the sample nearest to t_s: what is to be subtracted, scale and axis errors aside. */
 	struct Bias

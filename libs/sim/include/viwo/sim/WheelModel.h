@@ -11,6 +11,7 @@ namespace viwo::sim
 /** Section [wheels] of a rig. Defaults: a TurtleBot2 whose true wheels differ from the nominal ones. Zero switches an effect off. */
 struct WheelOptions : Options<WheelOptions>
 {
+	std::string label = "ODOMETRY";
 	double rate_hz = 20;
 	double phase_ms = 0;
 	double radius_m = 0.035;
@@ -36,6 +37,7 @@ struct WheelOptions : Options<WheelOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
+		v("label", label, "sensor label in the rawlog");
 		v("rate_hz", rate_hz, "readings a second", 1.0, 1000.0);
 		v("phase_ms", phase_ms, "time of the first reading", 0.0, 1000.0);
 		v("radius_m", radius_m, "nominal radius of the wheels", 1e-3, 1.0);
