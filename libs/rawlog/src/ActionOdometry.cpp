@@ -2,15 +2,6 @@
 
 namespace viwo
 {
-namespace
-{
-/** As an encoder's register: wraps around instead of overflowing. */
-int32_t wrappingSum(int32_t a, int32_t b)
-{
-	return static_cast<int32_t>(static_cast<uint32_t>(a) + static_cast<uint32_t>(b));
-}
-}  // namespace
-
 mrpt::obs::CObservationOdometry::Ptr ActionOdometry::add(const mrpt::obs::CActionRobotMovement2D& action)
 {
 	pose_ = pose_ + action.rawOdometryIncrementReading;
@@ -23,10 +14,10 @@ mrpt::obs::CObservationOdometry::Ptr ActionOdometry::add(const mrpt::obs::CActio
 	odometry->hasEncodersInfo = action.hasEncodersInfo;
 	if (action.hasEncodersInfo)
 	{
-		left_ticks_ = wrappingSum(left_ticks_, action.encoderLeftTicks);
-		right_ticks_ = wrappingSum(right_ticks_, action.encoderRightTicks);
-		odometry->encoderLeftTicks = left_ticks_;
-		odometry->encoderRightTicks = right_ticks_;
+		ticks_.left = wrappingSum(ticks_.left, action.encoderLeftTicks);
+		ticks_.right = wrappingSum(ticks_.right, action.encoderRightTicks);
+		odometry->encoderLeftTicks = ticks_.left;
+		odometry->encoderRightTicks = ticks_.right;
 	}
 	return odometry;
 }

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <viwo/rawlog/EncoderTicks.h>
 
 #include <string>
 
@@ -18,6 +19,6 @@ class ActionOdometry
    private:
 	std::string label_;
 	mrpt::poses::CPose2D pose_;
-	int32_t left_ticks_ = 0, right_ticks_ = 0;
+	EncoderTicks ticks_;
 };
 }  // namespace viwo

@@ -119,26 +119,46 @@ AdaptedObservation ObservationAdapter::convertImu(const CObservationIMU& imu)
 	return result;
 }
 
+OdometryReading ObservationAdapter::readingOf(const CObservationOdometry& odometry)
+{
+	OdometryReading reading;
+	reading.t_ns = nanosecondsOf(odometry.timestamp) + nanoseconds(options_.wheel_time_offset_s);
+	reading.twist = {odometry.velocityLocal.vx, odometry.velocityLocal.omega};
+	reading.ticks = {odometry.encoderLeftTicks, odometry.encoderRightTicks};
+	reading.x_m = odometry.odometry.x();
+	reading.y_m = odometry.odometry.y();
+	reading.yaw_rad = odometry.odometry.phi();
+	if (options_.odometry_source == AdapterOptions::OdometrySource::ticks_increment)
+	{
+		summed_increments_ = {wrappingSum(summed_increments_.left, reading.ticks.left),
+		                      wrappingSum(summed_increments_.right, reading.ticks.right)};
+		reading.ticks = summed_increments_;
+	}
+	return reading;
+}
+
 AdaptedObservation ObservationAdapter::convertOdometry(const CObservationOdometry& odometry)
 {
+	const bool is_velocity = options_.odometry_source == AdapterOptions::OdometrySource::velocity;
 	if (!hasSource(odometry, options_.odometry_source))
 	{
-		if (!last_odometry_)
+		if (!last_odometry_t_ns_)
 			throw Error("odometry at " + formatSeconds(nanosecondsOf(odometry.timestamp)) + " s under label " + odometry.sensorLabel +
-			            " has no " +
-			            (options_.odometry_source == AdapterOptions::OdometrySource::velocity ? "velocities" : "encoder ticks") +
+			            " has no " + (is_velocity ? "velocities" : "encoder ticks") +
 			            "; set odometry_source to what it has: " + describeSources(odometry));
 		return rejection(Rejection::missing_data);
 	}
 	if (!isFinite(odometry)) return rejection(Rejection::not_finite);
 	const int64_t t_ns = nanosecondsOf(odometry.timestamp);
-	std::optional<int64_t> last_t_ns;
-	if (last_odometry_) last_t_ns = nanosecondsOf(last_odometry_->timestamp);
-	if (const auto reason = checkStamp(last_t_ns, t_ns)) return rejection(*reason);
+	if (const auto reason = checkStamp(last_odometry_t_ns_, t_ns)) return rejection(*reason);
+	last_odometry_t_ns_ = t_ns;
 
-	const auto sample = wheelSampleFrom(last_odometry_ ? &*last_odometry_ : nullptr, odometry, options_);
-	last_odometry_ = odometry;
 	AdaptedObservation result;
+	const OdometryReading reading = readingOf(odometry);
+	const auto* previous = last_wheel_reading_ ? &*last_wheel_reading_ : nullptr;
+	if (!is_velocity && previous && secondsBetween(previous->t_ns, reading.t_ns) < options_.min_wheel_interval_s) return result;
+	const auto sample = wheelSampleFrom(previous, reading, options_);
+	last_wheel_reading_ = reading;
 	if (!sample) return result;
 	if (std::max(std::abs(sample->v_left_m_s), std::abs(sample->v_right_m_s)) > options_.max_wheel_speed_m_s)
 		return rejection(Rejection::too_fast);

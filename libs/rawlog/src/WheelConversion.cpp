@@ -1,7 +1,6 @@
 #include "WheelConversion.h"
 
 #include <viwo/core/Time.h>
-#include <viwo/rawlog/MrptTime.h>
 
 #include <cmath>
 
@@ -12,12 +11,6 @@ namespace
 using mrpt::obs::CObservationOdometry;
 using Source = AdapterOptions::OdometrySource;
 
-/** Encoder registers wrap around. */
-double tickDifference(int32_t before, int32_t after)
-{
-	return static_cast<int32_t>(static_cast<uint32_t>(after) - static_cast<uint32_t>(before));
-}
-
 /** Wheel travel since the previous reading, m. */
 struct WheelTravel
 {
@@ -25,18 +18,20 @@ struct WheelTravel
 	double right_m = 0;
 };
 
-WheelTravel travelOfTicks(double left_ticks, double right_ticks, const AdapterOptions& options)
+WheelTravel travelOfTicks(const EncoderTicks& before, const EncoderTicks& after, const AdapterOptions& options)
 {
-	const double scale = options.metresPerTick();
-	return {(options.left_inverted ? -scale : scale) * left_ticks, (options.right_inverted ? -scale : scale) * right_ticks};
+	const double scale_m = options.metresPerTick();
+	return {(options.left_inverted ? -scale_m : scale_m) * wrappingDifference(after.left, before.left),
+	        (options.right_inverted ? -scale_m : scale_m) * wrappingDifference(after.right, before.right)};
 }
 
 /** Of the arc that joins two poses of odometry. */
-WheelTravel travelOfPoses(const mrpt::poses::CPose2D& before, const mrpt::poses::CPose2D& after, const AdapterOptions& options)
+WheelTravel travelOfPoses(const OdometryReading& before, const OdometryReading& after, const AdapterOptions& options)
 {
-	const mrpt::poses::CPose2D step = after - before;
-	const double half_yaw = 0.5 * step.phi();
-	const double chord_m = step.x() * std::cos(half_yaw) + step.y() * std::sin(half_yaw);
+	const double dx_m = after.x_m - before.x_m, dy_m = after.y_m - before.y_m;
+	const double half_yaw = 0.5 * std::remainder(after.yaw_rad - before.yaw_rad, 2 * M_PI);
+	const double chord_yaw = before.yaw_rad + half_yaw;
+	const double chord_m = dx_m * std::cos(chord_yaw) + dy_m * std::sin(chord_yaw);
 	const double arc_m = std::abs(half_yaw) < 1e-9 ? chord_m : chord_m * half_yaw / std::sin(half_yaw);
 	return {arc_m - options.track_m * half_yaw, arc_m + options.track_m * half_yaw};
 }
@@ -73,30 +68,22 @@ bool isFinite(const CObservationOdometry& odometry)
 	return pose_is_finite && (!odometry.hasVelocities || (std::isfinite(v.vx) && std::isfinite(v.omega)));
 }
 
-std::optional<WheelSample> wheelSampleFrom(const CObservationOdometry* previous, const CObservationOdometry& current,
-                                           const AdapterOptions& options)
+std::optional<WheelSample> wheelSampleFrom(const OdometryReading* previous, const OdometryReading& current, const AdapterOptions& options)
 {
-	const int64_t t_ns = nanosecondsOf(current.timestamp) + nanoseconds(options.wheel_time_offset_s);
 	if (options.odometry_source == Source::velocity)
 	{
-		WheelTwist twist{current.velocityLocal.vx, current.velocityLocal.omega};
+		WheelTwist twist = current.twist;
 		if (options.velocity_meaning == AdapterOptions::VelocityMeaning::instantaneous && previous)
 		{
-			twist.v_m_s = 0.5 * (twist.v_m_s + previous->velocityLocal.vx);
-			twist.w_rad_s = 0.5 * (twist.w_rad_s + previous->velocityLocal.omega);
+			twist.v_m_s = 0.5 * (twist.v_m_s + previous->twist.v_m_s);
+			twist.w_rad_s = 0.5 * (twist.w_rad_s + previous->twist.w_rad_s);
 		}
-		return wheelSampleFromTwist(t_ns, twist, options.track_m);
+		return wheelSampleFromTwist(current.t_ns, twist, options.track_m);
 	}
 	if (!previous) return std::nullopt;
-	const double dt_s = secondsBetween(nanosecondsOf(previous->timestamp), nanosecondsOf(current.timestamp));
-	WheelTravel travel;
-	if (options.odometry_source == Source::pose)
-		travel = travelOfPoses(previous->odometry, current.odometry, options);
-	else if (options.odometry_source == Source::ticks_increment)
-		travel = travelOfTicks(current.encoderLeftTicks, current.encoderRightTicks, options);
-	else
-		travel = travelOfTicks(tickDifference(previous->encoderLeftTicks, current.encoderLeftTicks),
-		                       tickDifference(previous->encoderRightTicks, current.encoderRightTicks), options);
-	return WheelSample{t_ns, travel.left_m / dt_s, travel.right_m / dt_s};
+	const double dt_s = secondsBetween(previous->t_ns, current.t_ns);
+	const WheelTravel travel = options.odometry_source == Source::pose ? travelOfPoses(*previous, current, options)
+	                                                                   : travelOfTicks(previous->ticks, current.ticks, options);
+	return WheelSample{current.t_ns, travel.left_m / dt_s, travel.right_m / dt_s};
 }
 }  // namespace viwo

@@ -14,7 +14,6 @@ std::string describeSources(const mrpt::obs::CObservationOdometry& odometry);
 
 bool isFinite(const mrpt::obs::CObservationOdometry& odometry);
 
-/** Mean wheel speeds from `previous` to `current`, in the IMU's clock; nothing where they take two readings and previous is null. */
-std::optional<WheelSample> wheelSampleFrom(const mrpt::obs::CObservationOdometry* previous, const mrpt::obs::CObservationOdometry& current,
-                                           const AdapterOptions& options);
+/** Mean wheel speeds from `previous` to `current`; nothing where they take two readings and previous is null. */
+std::optional<WheelSample> wheelSampleFrom(const OdometryReading* previous, const OdometryReading& current, const AdapterOptions& options);
 }  // namespace viwo

@@ -9,6 +9,7 @@
 #include <viwo/core/ImuSample.h>
 #include <viwo/core/Options.h>
 #include <viwo/core/WheelSample.h>
+#include <viwo/rawlog/EncoderTicks.h>
 #include <viwo/rawlog/RawlogReader.h>
 
 #include <cstdint>
@@ -49,6 +50,7 @@ struct AdapterOptions : Options<AdapterOptions>
 	double camera_time_offset_s = 0;
 	double wheel_time_offset_s = 0;
 	double max_wheel_speed_m_s = 50;
+	double min_wheel_interval_s = 0.005;
 
 	double metresPerTick() const;
 
@@ -71,6 +73,8 @@ struct AdapterOptions : Options<AdapterOptions>
 		v("camera_time_offset_s", camera_time_offset_s, "t_IMU = t_CAM + this", -10.0, 10.0);
 		v("wheel_time_offset_s", wheel_time_offset_s, "t_IMU = t_WHEEL + this", -10.0, 10.0);
 		v("max_wheel_speed_m_s", max_wheel_speed_m_s, "faster samples are rejected (an encoder that was reset)", 0.01, 1e4);
+		v("min_wheel_interval_s", min_wheel_interval_s,
+		  "ticks or poses that come sooner are added to the next (stamps of reception come in bunches)", 0.0, 1.0);
 	}
 };
 
@@ -113,6 +117,15 @@ struct AdaptedObservation
 	std::optional<Rejection> rejected;
 };
 
+/** What an odometry observation says, ticks made absolute. */
+struct OdometryReading
+{
+	int64_t t_ns = 0;
+	WheelTwist twist;
+	EncoderTicks ticks;
+	double x_m = 0, y_m = 0, yaw_rad = 0;
+};
+
 /** Accepted and rejected observations of one label. */
 struct RejectionCounts
 {
@@ -139,14 +152,16 @@ class ObservationAdapter
    private:
 	AdaptedObservation convertImu(const mrpt::obs::CObservationIMU& imu);
 	AdaptedObservation convertOdometry(const mrpt::obs::CObservationOdometry& odometry);
+	OdometryReading readingOf(const mrpt::obs::CObservationOdometry& odometry);
 	AdaptedObservation convertImage(const mrpt::obs::CObservationImage::Ptr& image);
 	std::optional<Rejection> checkStamp(const std::optional<int64_t>& last_t_ns, int64_t t_ns) const;
 
 	AdapterOptions options_;
 	std::map<std::string, RejectionCounts> counts_;
 	std::optional<int64_t> last_image_t_ns_, last_imu_t_ns_;
-	/** The last odometry observation that was not rejected. */
-	std::optional<mrpt::obs::CObservationOdometry> last_odometry_;
+	std::optional<int64_t> last_odometry_t_ns_;
+	std::optional<OdometryReading> last_wheel_reading_;  //!< where the interval of the next WheelSample begins
+	EncoderTicks summed_increments_;
 };
 
 /** Calibration from observations; the wheels' from the options.

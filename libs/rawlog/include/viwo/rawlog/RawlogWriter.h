@@ -8,6 +8,7 @@
 #include <viwo/core/ImuSample.h>
 #include <viwo/core/Pose3.h>
 #include <viwo/core/WheelSample.h>
+#include <viwo/rawlog/EncoderTicks.h>
 
 #include <cstdint>
 #include <memory>
@@ -53,14 +54,8 @@ class RawlogWriter
 /** Slots in MRPT's order (acc x y z, then the rates wz wy wx). */
 mrpt::obs::CObservationIMU makeImu(const ImuSample& sample, const Pose3& T_OB, const std::string& label = "IMU");
 
-/** Absolute counts of the two wheels' encoders since any start. */
-struct EncoderTicks
-{
-	int32_t left = 0;
-	int32_t right = 0;
-};
-
-/** @param pose_x_m, pose_y_m, pose_yaw_rad odometry's own pose, accumulated from the start (absolute). */
+/** @param ticks absolute.
+ *  @param pose_x_m, pose_y_m, pose_yaw_rad odometry's own pose, accumulated from the start (absolute). */
 mrpt::obs::CObservationOdometry makeOdometry(int64_t t_ns, const WheelTwist& twist, const std::optional<EncoderTicks>& ticks = {},
                                              double pose_x_m = 0, double pose_y_m = 0, double pose_yaw_rad = 0,
                                              const std::string& label = "ODOMETRY");
