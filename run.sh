@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 build_dir=${VIWO_BUILD_DIR:-build}
 jobs=${VIWO_JOBS:-$(nproc)}
 packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libopencv-dev nlohmann-json3-dev libcli11-dev libyaml-cpp-dev libgtest-dev
-	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-system-dev mrpt-apps)
+	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-system-dev mrpt-apps zlib1g-dev)
 
 usage() {
 	cat <<'TEXT'
