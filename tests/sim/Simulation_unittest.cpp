@@ -30,7 +30,7 @@ World room()
 Route shortRoute()
 {
 	Route route;
-	route.segments = "straight 0.3 m, rotate 10 deg";
+	route.segments = "straight 0.3 m, rotate 10 deg, stand 0.5 s";
 	return route;
 }
 

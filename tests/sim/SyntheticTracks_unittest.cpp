@@ -82,6 +82,18 @@ TEST(SyntheticTracks, NoiseHasItsStrengthAndSeedsDecide)
 	EXPECT_NEAR(std::sqrt(squared / count), 0.5, 0.01);
 }
 
+TEST(SyntheticTracks, WallsHideWhatIsBehindThem)
+{
+	std::vector<Surface> surfaces;
+	appendBox(surfaces, {2, 0, 0}, {0.2, 1, 1}, 0, 0);
+	const World world({Material()}, surfaces);
+	const auto visible = visibleIn(world);
+	EXPECT_TRUE(visible({0, 0, 0.5}, {1.9, 0.2, 0.5})) << "on its face";
+	EXPECT_FALSE(visible({0, 0, 0.5}, {2.1, 0.2, 0.5}));
+	EXPECT_FALSE(visible({0, 0, 0.5}, {5, 0, 0.5}));
+	EXPECT_TRUE(visible({0, 0, 0.5}, {5, 3, 0.5}));
+}
+
 TEST(SyntheticTracks, IdsAreSortedAndNeverReturn)
 {
 	const Motion motion(routeOf("rotate 360 deg"));

@@ -8,10 +8,48 @@
 #include <cmath>
 #include <exception>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <thread>
 
 namespace viwo::sim
 {
+namespace
+{
+bool same(const Pose3& a, const Pose3& b)
+{
+	return a.p == b.p && a.R.coeffs() == b.R.coeffs();
+}
+}  // namespace
+
+/** A renderer, and what it saw last: a robot that stands for minutes sees the same light in each frame, only the noise is new. */
+class CameraRecorder::Eye
+{
+   public:
+	explicit Eye(const CameraRecorder& r)
+	    : renderer_(r.world_, r.model_, r.renderer_options_, r.effects_options_),
+	      effects_(r.model_.width_px(), r.model_.height_px(), r.effects_options_)
+	{
+	}
+
+	GreyImage see(const Renderer::Motion& T_WC, const Exposure& exposure)
+	{
+		const Pose3 open = T_WC(0);
+		if (exposure.black || !same(open, T_WC(0.5)) || !same(open, T_WC(1))) return renderer_.render(T_WC, exposure);
+		if (!still_ || !same(open, *still_))
+		{
+			radiance_ = renderer_.radiance(open);
+			still_ = open;
+		}
+		return effects_.apply(radiance_, exposure);
+	}
+
+   private:
+	Renderer renderer_;
+	ImageEffects effects_;
+	std::optional<Pose3> still_;
+	RadianceImage radiance_;
+};
+
 CameraRecorder::CameraRecorder(const Motion& motion, const World& world, const Rig& rig, uint64_t seed)
     : motion_(motion),
       world_(world),
@@ -55,10 +93,10 @@ Exposure CameraRecorder::exposure(int64_t i) const
 	return exposure;
 }
 
-void CameraRecorder::writeImage(Renderer& renderer, int64_t i, const std::string& path) const
+void CameraRecorder::writeImage(Eye& eye, int64_t i, const std::string& path) const
 {
 	const double exposure_s = 1e-3 * options_.exposure_ms, open_s = time_s(i) - 0.5 * exposure_s;
-	GreyImage image = renderer.render([&](double s) { return motion_.at(open_s + s * exposure_s).T_WO * T_OC_actual_; }, exposure(i));
+	GreyImage image = eye.see([&](double s) { return motion_.at(open_s + s * exposure_s).T_WO * T_OC_actual_; }, exposure(i));
 	const cv::Mat pixels(image.height_px, image.width_px, CV_8UC1, image.pixels.data());
 	std::vector<int> parameters;
 	if (options_.format == CameraOptions::Format::jpg) parameters = {cv::IMWRITE_JPEG_QUALITY, options_.jpeg_quality};
@@ -67,12 +105,12 @@ void CameraRecorder::writeImage(Renderer& renderer, int64_t i, const std::string
 
 void CameraRecorder::work(const std::string& folder, Queue& queue, const std::function<bool(double)>& progress) const
 {
-	Renderer renderer(world_, model_, renderer_options_, effects_options_);
+	Eye eye(*this);
 	while (!queue.stop)
 	{
 		const int64_t i = queue.next++;
 		if (i >= count()) return;
-		writeImage(renderer, i, folder + "/" + fileName(i));
+		writeImage(eye, i, folder + "/" + fileName(i));
 		if (progress && !progress(static_cast<double>(i + 1) / static_cast<double>(count()))) queue.stop = true;
 	}
 }

@@ -29,13 +29,14 @@ class CameraRecorder
 	int64_t record(const std::string& folder, int threads, const std::function<bool(double)>& progress) const;
 
    private:
+	class Eye;
 	struct Queue
 	{
 		std::atomic<int64_t> next{0};
 		std::atomic<bool> stop{false};
 	};
 	void work(const std::string& folder, Queue& queue, const std::function<bool(double)>& progress) const;
-	void writeImage(Renderer& renderer, int64_t i, const std::string& path) const;
+	void writeImage(Eye& eye, int64_t i, const std::string& path) const;
 	Exposure exposure(int64_t i) const;
 
 	const Motion& motion_;

@@ -102,6 +102,16 @@ class Tracker
 };
 }  // namespace
 
+std::function<bool(const Vector3d&, const Vector3d&)> visibleIn(const World& world)
+{
+	return [&world](const Vector3d& from_W, const Vector3d& point_W)
+	{
+		const Vector3d way = point_W - from_W;
+		const double range_m = way.norm(), touching_m = 1e-4;
+		return range_m > touching_m && !world.castRay(from_W, way / range_m, range_m - touching_m);
+	};
+}
+
 std::vector<Vector3d> randomRoomPoints(const Vector3d& min_W, const Vector3d& max_W, size_t n, uint64_t seed)
 {
 	std::mt19937_64 generator = randomSource(seed, "room points");

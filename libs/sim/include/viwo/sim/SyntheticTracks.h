@@ -3,6 +3,7 @@
 #include <viwo/core/Calibration.h>
 #include <viwo/core/FeatureFrame.h>
 #include <viwo/sim/Motion.h>
+#include <viwo/sim/World.h>
 
 #include <functional>
 #include <vector>
@@ -25,6 +26,9 @@ struct TrackOptions
 	/** Whether a point is seen from a place (both in W); empty: always. */
 	std::function<bool(const Eigen::Vector3d& from_W, const Eigen::Vector3d& point_W)> visible;
 };
+
+/** For TrackOptions::visible: nothing of the world stands between. `world` must outlive the result; its samplePoints() suit. */
+std::function<bool(const Eigen::Vector3d& from_W, const Eigen::Vector3d& point_W)> visibleIn(const World& world);
 
 /** n points on the six inner faces of an upright box, uniform over their area. */
 std::vector<Eigen::Vector3d> randomRoomPoints(const Eigen::Vector3d& min_W, const Eigen::Vector3d& max_W, size_t n, uint64_t seed);
