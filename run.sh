@@ -47,11 +47,11 @@ configure() {
 	shift
 	local generator=()
 	if [ ! -e "$dir/CMakeCache.txt" ] && command -v ninja >/dev/null; then generator=(-G Ninja); fi
-	cmake -S . -B "$dir" "${generator[@]}" "$@" >"$dir.log" 2>&1 || {
-		cat "$dir.log" >&2
+	local log
+	log=$(cmake -S . -B "$dir" "${generator[@]}" "$@" 2>&1) || {
+		echo "$log" >&2
 		fail "cmake could not configure $dir"
 	}
-	rm -f "$dir.log"
 }
 
 build() {
