@@ -50,8 +50,8 @@ FrameCaster::FrameCaster(const World& world, const CameraModel& camera)
       height_px_(camera.height_px()),
       focal_px_(camera.meanFocal_px()),
       surfaces_(world.surfaces()),
-      lens_(camera),
-      shading_(world),
+      lens_(std::make_shared<const LensTable>(camera)),
+      shading_(std::make_shared<const SurfaceShading>(world)),
       view_of_pixel_(static_cast<size_t>(width_px_) * static_cast<size_t>(height_px_)),
       is_outline_(view_of_pixel_.size())
 {
@@ -67,9 +67,9 @@ void FrameCaster::add(const Pose3& T_WC, float weight, RadianceImage& image)
 	std::fill(is_outline_.begin(), is_outline_.end(), uint8_t{0});
 	kept_views_.clear();
 	kept_until_.clear();
-	for (const auto& tile : lens_.tiles()) castTile(tile);
+	for (const auto& tile : lens_->tiles()) castTile(tile);
 	markOutlines();
-	for (size_t i = 0; i < lens_.tiles().size(); ++i) shadeTile(lens_.tiles()[i], i, weight, image);
+	for (size_t i = 0; i < lens_->tiles().size(); ++i) shadeTile(lens_->tiles()[i], i, weight, image);
 }
 
 void FrameCaster::chooseCandidates(const LensTable::Tile& tile)
@@ -116,7 +116,7 @@ void FrameCaster::castTile(const LensTable::Tile& tile)
 
 void FrameCaster::castPixels(const LensTable::Tile& tile, const std::vector<Candidate>& candidates)
 {
-	const float *x = lens_.x() + tile.first, *y = lens_.y() + tile.first;
+	const float *x = lens_->x() + tile.first, *y = lens_->y() + tile.first;
 	best_q_.fill(0);
 	best_view_.fill(kNothing);
 	if (candidates.size() == 1 && candidates[0].covers_all)
@@ -135,7 +135,7 @@ void FrameCaster::markThin(const LensTable::Tile& tile, const SurfaceView& view)
 		for (int column = 0; column < tile.columns; ++column)
 		{
 			const size_t i = static_cast<size_t>(row * LensTable::kTile_px + column);
-			const float x = lens_.x()[tile.first + i], y = lens_.y()[tile.first + i];
+			const float x = lens_->x()[tile.first + i], y = lens_->y()[tile.first + i];
 			const float q = view.q.at(x, y), uq = view.uq.at(x, y), vq = view.vq.at(x, y);
 			const auto reach = [&](const Affine& f)
 			{ return std::abs(f.x * tile.x_px_x + f.y * tile.x_px_y) + std::abs(f.x * tile.y_px_x + f.y * tile.y_px_y); };
@@ -166,13 +166,13 @@ void FrameCaster::shadeTile(const LensTable::Tile& tile, size_t index, float wei
 		             first_ray = tile.first + static_cast<size_t>(row) * LensTable::kTile_px;
 		for (size_t column = 0; column < static_cast<size_t>(tile.columns); ++column)
 		{
-			const float x = lens_.x()[first_ray + column], y = lens_.y()[first_ray + column];
+			const float x = lens_->x()[first_ray + column], y = lens_->y()[first_ray + column];
 			const size_t pixel = first_pixel + column;
 			const int32_t view = view_of_pixel_[pixel];
 			if (is_outline_[pixel])
 				image.pixels[pixel] += weight * outlineRadiance(tile, index, x, y);
 			else if (view != kNothing)
-				image.pixels[pixel] += weight * shading_.radiance(views_[static_cast<size_t>(view)], x, y, tile);
+				image.pixels[pixel] += weight * shading_->radiance(views_[static_cast<size_t>(view)], x, y, tile);
 		}
 	}
 }
@@ -207,7 +207,7 @@ float FrameCaster::outlineRadiance(const LensTable::Tile& tile, size_t index, fl
 				y_sum += ys[j];
 				if (j > i) best_view[j] = kNothing;
 			}
-		sum += count / n * shading_.radiance(views_[static_cast<size_t>(view)], x_sum / count, y_sum / count, tile);
+		sum += count / n * shading_->radiance(views_[static_cast<size_t>(view)], x_sum / count, y_sum / count, tile);
 	}
 	return sum;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "LensTable.h"
@@ -46,8 +47,9 @@ class FrameCaster
 	int width_px_, height_px_;
 	double focal_px_;
 	std::vector<Surface> surfaces_;
-	LensTable lens_;
-	SurfaceShading shading_;
+	// Never change: copies share them.
+	std::shared_ptr<const LensTable> lens_;
+	std::shared_ptr<const SurfaceShading> shading_;
 
 	std::vector<SurfaceView> views_;
 	std::vector<Candidate> candidates_;  // of the tile at work

@@ -87,6 +87,7 @@ Renderer::Renderer(const World& world, const CameraModel& camera, const Renderer
 {
 }
 
+Renderer::Renderer(const Renderer& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -41,9 +41,12 @@ class Renderer
 	 *  @throws Error when the camera is not calibrated or looks more than 86 deg off its axis.
 	 */
 	Renderer(const World& world, const CameraModel& camera, const RendererOptions& options = {}, const ImageEffectsOptions& effects = {});
+	/** Shares textures and light with the original: cheap; for another thread. */
+	Renderer(const Renderer& other);
 	~Renderer();
 	Renderer(Renderer&&) noexcept;
 	Renderer& operator=(Renderer&&) noexcept;
+	Renderer& operator=(const Renderer&) = delete;
 
 	/** One frame of the camera. */
 	GreyImage render(const Motion& T_WC, const Exposure& exposure);
