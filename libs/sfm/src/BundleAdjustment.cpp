@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "Linearisation.h"
+
 namespace viwo::sfm
 {
 namespace
@@ -15,6 +17,7 @@ namespace
 constexpr double kHuber_sigmas = 2;
 constexpr double kCostTolerance = 1e-10, kTolerance = 1e-12;
 constexpr double kResectionTolerance = 1e-6;
+constexpr double kMaxInverseDistanceSigma = 0.7;
 constexpr double kMaxResectionShareOff = 0.4;
 constexpr double kResectionLimit_sigmas = 8;
 
@@ -174,6 +177,18 @@ void removeFalsePoints(Scene& scene, double limit_rad)
 	}
 }
 
+void removeVaguePoints(Scene& scene, double sigma_rad)
+{
+	std::vector<double> inverse_distances;
+	for (const ScenePoint& point : scene.points)
+		if (point.X) inverse_distances.push_back(std::max(0.0, point.X->w()) / point.X->head<3>().norm());
+	if (inverse_distances.empty()) return;
+	const auto middle = inverse_distances.begin() + static_cast<std::ptrdiff_t>(inverse_distances.size() / 2);
+	std::nth_element(inverse_distances.begin(), middle, inverse_distances.end());
+	for (ScenePoint& point : scene.points)
+		if (point.X && inverseDistanceSigma(point, scene.T_r_ck, sigma_rad) > kMaxInverseDistanceSigma * *middle) point.X.reset();
+}
+
 int removeOutliers(Scene& scene, double limit_rad)
 {
 	int removed = 0;
@@ -190,7 +205,7 @@ int removeOutliers(Scene& scene, double limit_rad)
 		                                });
 		removed += static_cast<int>(all.end() - end);
 		all.erase(end, all.end());
-		if (all.size() < 2) point.X.reset();
+		if (all.size() < kMinViews) point.X.reset();
 	}
 	return removed;
 }

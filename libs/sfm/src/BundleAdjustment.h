@@ -22,8 +22,14 @@ bool adjust(Scene& scene, const AdjustmentSettings& settings);
  */
 void removeFalsePoints(Scene& scene, double limit_rad);
 
-/** Takes observations out that lie farther off than limit_rad or behind their camera, and points that are left with fewer than two. @return
- * how many. */
+/** Takes points out whose inverse distance is known less well than the scene's median inverse distance (times kMaxInverseDistanceSigma):
+ * short tracks, and what lies where the camera is heading. The noise can bring such a point close, and a close point claims to know the
+ * motion well. The criterion looks at the geometry of the views alone, hence does not choose by the noise.
+ */
+void removeVaguePoints(Scene& scene, double sigma_rad);
+
+/** Takes observations out that lie farther off than limit_rad or behind their camera, and points that are left with fewer than kMinViews.
+ * @return how many. */
 int removeOutliers(Scene& scene, double limit_rad);
 
 /** Root mean square of the bearing errors per axis, and how many points that is over. */

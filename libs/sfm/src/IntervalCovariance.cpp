@@ -4,35 +4,12 @@
 #include <vector>
 
 #include "BundleAdjustment.h"
+#include "Linearisation.h"
 
 namespace viwo::sfm
 {
 namespace
 {
-using Matrix26 = Eigen::Matrix<double, 2, 6>;
-using Matrix24 = Eigen::Matrix<double, 2, 4>;
-
-struct Linearised
-{
-	Matrix26 camera;  //!< columns [dp in r's axes, dphi right perturbation of R_r_ck]
-	Matrix24 point;
-};
-
-Linearised linearise(const Eigen::Vector4d& X, const Pose3& T_r_ck, const Eigen::Vector3d& bearing)
-{
-	const Eigen::Matrix3d R_ck_r = T_r_ck.R.conjugate().toRotationMatrix();
-	const Eigen::Vector3d f = directionOf(X, T_r_ck);
-	const double depth = bearing.dot(f);
-	const Eigen::Matrix<double, 2, 3> B = tangentBasis(bearing).transpose();
-	const Eigen::Matrix<double, 2, 3> J_f = (B - (B * f / depth) * bearing.transpose()) / depth;
-	Linearised L;
-	L.camera.leftCols<3>() = -X.w() * J_f * R_ck_r;
-	L.camera.rightCols<3>() = J_f * so3::skew(f);
-	L.point.leftCols<3>() = J_f * R_ck_r;
-	L.point.col(3) = -J_f * R_ck_r * T_r_ck.p;
-	return L;
-}
-
 /** Information about the poses, the points eliminated. The point's fourth direction, along X itself, is none: it is filled by X X^T. */
 Eigen::MatrixXd reducedInformation(const Scene& scene)
 {

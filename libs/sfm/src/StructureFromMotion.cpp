@@ -83,6 +83,7 @@ bool adjustWithoutOutliers(Scene& scene, const SfmOptions& options)
 	removeFalsePoints(scene, kGrossFactor * options.outlier_sigmas * options.sigma_rad);
 	for (int round = 0; round < kAdjustmentRounds; ++round)
 	{
+		removeVaguePoints(scene, options.sigma_rad);
 		if (!adjust(scene, settings)) return false;
 		if (removeOutliers(scene, options.outlier_sigmas * options.sigma_rad) == 0) break;
 		if (round + 1 == kAdjustmentRounds && !adjust(scene, settings)) return false;

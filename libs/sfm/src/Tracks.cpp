@@ -54,7 +54,7 @@ std::vector<Track> collectTracks(const std::vector<FeatureFrame>& frames)
 		}
 	std::vector<Track> tracks;
 	for (auto& [id, track] : by_id)
-		if (track.observations.size() >= 2) tracks.push_back(std::move(track));
+		if (track.observations.size() >= kMinViews) tracks.push_back(std::move(track));
 	return tracks;
 }
 

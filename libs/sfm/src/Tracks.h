@@ -25,7 +25,10 @@ struct Track
 	const Eigen::Vector3d* bearingIn(int frame) const;
 };
 
-/** By id; features seen only once are left out. */
+/** From two views alone a nearby point and a false one look alike, and neighbouring frames leave its distance open. */
+constexpr size_t kMinViews = 3;
+
+/** By id; features with fewer views are left out. */
 std::vector<Track> collectTracks(const std::vector<FeatureFrame>& frames);
 
 struct Correspondence
