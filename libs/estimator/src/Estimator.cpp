@@ -30,13 +30,21 @@ constexpr double kMaxAccBias_m_s2 = 3;
 constexpr double kMaxGyroBias_rad_s = 0.5;
 /** The first solve starts far from the optimum. */
 constexpr int kStartIterations = 30;
-/** Without a start for this long, the oldest of the waiting frames are let go. */
-constexpr size_t kMaxWaitingFrames = 11;
+/** Vision is tried at this spacing: a reconstruction that fails is not cheap. */
+constexpr double kVisionStartPeriod_s = 0.3;
 
 bool plausible(const NavState& s)
 {
 	const bool finite = s.T_WB.p.allFinite() && s.T_WB.R.coeffs().allFinite() && s.v_WB.allFinite() && s.b_a.allFinite() && s.b_g.allFinite();
 	return finite && s.v_WB.norm() < kMaxSpeed_m_s && s.b_a.norm() < kMaxAccBias_m_s2 && s.b_g.norm() < kMaxGyroBias_rad_s;
+}
+
+/** Before the start only the rotation is known, from the gyro: enough to tell keyframes. */
+void predictRotation(Frame& frame, const Frame& before)
+{
+	Pose3 T = poseFromBlock(before.pose.data());
+	T.R = (T.R * frame.interval.imu->delta().gamma).normalized();
+	poseToBlock(T, frame.pose.data());
 }
 
 /** One step of strapdown integration from sample a to sample b, rates and forces held at their mean. */
@@ -72,6 +80,7 @@ struct Estimator::Impl
 	bool running = false;
 	int64_t next_frame_id = 0;
 	std::optional<int64_t> last_frame_ns;  //!< of any frame
+	std::optional<int64_t> last_vision_try_ns;
 	std::optional<NavState> last_state;	 //!< of the last frame with a pose
 	Pose3 T_WO_last;  //!< O when it was last known; a new start continues there
 	int64_t t_last_known_ns = 0;
@@ -106,7 +115,7 @@ struct Estimator::Impl
 	Pose3 startPose(int64_t t_ns) const;
 	void report(FrameEstimate& out);
 	void updateStatus(int64_t t_ns);
-	void trimWaiting();
+	bool visionDue(int64_t t_ns);
 };
 
 FrameEstimate Estimator::Impl::processFrame(const FeatureFrame& features)
@@ -134,7 +143,7 @@ FrameEstimate Estimator::Impl::processFrame(const FeatureFrame& features)
 	else if (tryToStart(features.t_ns))
 		report(out);
 	else
-		trimWaiting();
+		thinOutWaitingFrames(window);
 
 	if (running)
 	{
@@ -192,6 +201,7 @@ void Estimator::Impl::push(const FeatureFrame& features, const Interval& interva
 	if (!window.frames.empty()) frame->interval = interval;
 	window.frames.push_back(std::move(frame));
 	if (options.useCamera()) window.landmarks.add(window.latest());
+	if (!running && window.latest().interval.imu) predictRotation(window.latest(), *window.frames[window.frames.size() - 2]);
 }
 
 void Estimator::Impl::predictLatest()
@@ -221,8 +231,8 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 	const double waited_s = secondsBetween(window.frames.front()->t_ns, t_ns);
 	if (from_wheels && waited_s >= options.window.start_after_s && startFromWheels(window, intervals, startPose(t_ns)))
 		status.set(Status::from_wheels, t_ns, "wheels, accelerometer and gyro give the first pose");
-	else if (options.useCamera() && startFromVision(window, intervals, startPose(t_ns)))
-		status.set(Status::tracking, t_ns, "vision aligned with the IMU");
+	else if (visionDue(t_ns) && startFromVision(window, intervals, startPose(t_ns)))
+		status.set(Status::tracking, t_ns, options.useWheels() ? "vision aligned with IMU and wheels" : "vision aligned with the IMU");
 	else
 		return false;
 	running = ever_started = true;
@@ -323,14 +333,11 @@ void Estimator::Impl::updateStatus(int64_t t_ns)
 	if (options.useCamera()) status.update(t_ns, window.landmarks.countKnown(window.latest()), window.landmarks.countSeen(window.latest()));
 }
 
-void Estimator::Impl::trimWaiting()
+bool Estimator::Impl::visionDue(int64_t t_ns)
 {
-	while (window.frames.size() > kMaxWaitingFrames)
-	{
-		window.landmarks.forget(*window.frames.front(), window.T_BC_pose());
-		window.frames.pop_front();
-		window.frames.front()->interval = {};
-	}
+	if (!options.useCamera() || (last_vision_try_ns && secondsBetween(*last_vision_try_ns, t_ns) < kVisionStartPeriod_s)) return false;
+	last_vision_try_ns = t_ns;
+	return true;
 }
 
 Estimator::Estimator(const EstimatorOptions& options, const Calibration& calibration) : impl_(std::make_unique<Impl>(options, calibration)) {}

@@ -1,5 +1,76 @@
 #include "VisionStart.h"
+
+#include "ImuPreintegration.h"
+#include "Initializer.h"
+#include "IntervalFactory.h"
+#include "WheelPreintegration.h"
+#include "WheelStart.h"
+
+#include <viwo/sfm/StructureFromMotion.h>
+
+#include <algorithm>
+#include <vector>
+
 namespace viwo
 {
-bool startFromVision(Window&, IntervalFactory&, const Pose3&) { return false; }
+namespace
+{
+constexpr size_t kMinFrames = 6;
+/** Velocities of the alignment are good to some part of themselves, and never better than this many of the start's own deviations. */
+constexpr double kVelocityShare = 0.3;
+
+SfmOptions sfmOptions(const Window& w)
+{
+	SfmOptions options;
+	options.sigma_rad = w.landmarks.settings().sigma_rad;
+	return options;
 }
+
+std::vector<Eigen::Quaterniond> gyroRotations(const Window& w)
+{
+	std::vector<Eigen::Quaterniond> R_c0_ck{Eigen::Quaterniond::Identity()};
+	const Eigen::Quaterniond R_BC = w.T_BC_pose().R;
+	for (size_t i = 1; i < w.frames.size(); ++i)
+		R_c0_ck.push_back((R_c0_ck.back() * R_BC.conjugate() * w.frames[i]->interval.imu->delta().gamma * R_BC).normalized());
+	return R_c0_ck;
+}
+
+void applyStates(Window& w, const std::vector<NavState>& states)
+{
+	for (size_t i = 0; i < w.frames.size(); ++i) w.frames[i]->setState(states[i]);
+}
+}  // namespace
+
+bool startFromVision(Window& w, IntervalFactory& intervals, const Pose3& T_WO_latest)
+{
+	if (w.frames.size() < kMinFrames) return false;
+	bool all_wheels = w.options.useWheels() && w.options.factors.wheels_in_initialization;
+	std::vector<FeatureFrame> features{w.frames.front()->features};
+	std::vector<ImuPreintegration> imu;
+	std::vector<WheelPreintegration> wheels;
+	for (size_t i = 1; i < w.frames.size(); ++i)
+	{
+		const Frame& frame = *w.frames[i];
+		if (!frame.interval.imu) return false;
+		features.push_back(frame.features);
+		imu.push_back(*frame.interval.imu);
+		all_wheels = all_wheels && frame.interval.wheels;
+	}
+	InitializerOptions options = w.options.initializer;
+	options.use_wheels = options.use_wheels && all_wheels;
+	for (size_t i = 1; i < w.frames.size() && options.use_wheels; ++i) wheels.push_back(*w.frames[i]->interval.wheels);
+
+	const SfmResult sfm = StructureFromMotion(sfmOptions(w)).reconstruct(features, gyroRotations(w));
+	if (sfm.status != SfmStatus::ok) return false;
+	const Initializer initializer(w.calibration, w.options.noise.gravity_m_s2, options);
+	const InitializerResult aligned = initializer.align(sfm, imu, wheels);
+	if (aligned.status != InitializerStatus::ok) return false;
+
+	const std::vector<NavState> states = initializer.navStates(aligned, imu, w.frames.size() - 1, T_WO_latest);
+	applyStates(w, states);
+	intervals.relinearizeAt(w, Eigen::Vector3d::Zero(), aligned.gyro.b_g);
+	const double velocity_sigma_m_s = std::max(w.options.priors.velocity_m_s, kVelocityShare * states.front().v_WB.norm());
+	addStartPriors(w, w.latest(), velocity_sigma_m_s, w.options.priors.gyro_bias_rad_s);
+	return true;
+}
+}  // namespace viwo

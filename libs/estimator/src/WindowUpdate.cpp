@@ -85,6 +85,13 @@ void mergeSecondLatest(Window& w)
 	removeFrame(w, second);
 }
 
+/** Whether the intervals before and after the second-latest frame can be composed: the same sensors speak in both. */
+bool mergeable(const Window& w)
+{
+	const Interval &one = w.frames[w.frames.size() - 2]->interval, &two = w.latest().interval;
+	return (one.imu || one.wheels) && !one.imu == !two.imu && !one.wheels == !two.wheels;
+}
+
 /** The frame kept for its time before this one goes, and its measurements become a link between its neighbours. */
 void marginalizeTimed(Window& w, size_t index)
 {
@@ -140,16 +147,30 @@ bool isKeyframe(const Window& w, const Frame& frame, const Frame& previous)
 	return sum_rad / common * kReferenceFocal_px >= w.options.window.keyframe_parallax_px;
 }
 
+void thinOutWaitingFrames(Window& w)
+{
+	if (w.frames.size() <= static_cast<size_t>(w.options.window.keyframes)) return;
+	const size_t second = w.frames.size() - 2;
+	const Frame& before = *w.frames[second - 1];
+	const bool short_enough = secondsBetween(before.t_ns, w.latest().t_ns) <= w.options.window.max_interval_s;
+	if (mergeable(w) && short_enough && !isKeyframe(w, *w.frames[second], before))
+	{
+		mergeSecondLatest(w);
+		return;
+	}
+	w.landmarks.forget(*w.frames.front(), w.T_BC_pose());
+	w.frames.pop_front();
+	w.frames.front()->interval = {};
+}
+
 Fate advanceWindow(Window& w)
 {
 	if (w.frames.size() < 3) return Fate::kept_growing;
 	const size_t second = w.frames.size() - 2;
 	Frame& candidate = *w.frames[second];
 	const Frame& before = *w.frames[second - 1];
-	const Interval &one = candidate.interval, &two = w.latest().interval;
-	const bool mergeable = (one.imu || one.wheels) && !one.imu == !two.imu && !one.wheels == !two.wheels;
 	const bool full = w.frames.size() > static_cast<size_t>(w.options.window.keyframes);
-	candidate.keyframe = candidate.keyframe || !mergeable || isKeyframe(w, candidate, before);
+	candidate.keyframe = candidate.keyframe || !mergeable(w) || isKeyframe(w, candidate, before);
 	if (candidate.keyframe)
 	{
 		if (!full) return Fate::kept_growing;

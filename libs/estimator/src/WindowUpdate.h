@@ -16,6 +16,9 @@ enum class Fate
 /** Makes room for the next frame. Called after the window was solved. */
 Fate advanceWindow(Window& window);
 
+/** Before the start: keeps the number of waiting frames that of a full window, and of frames without parallax the newest only. */
+void thinOutWaitingFrames(Window& window);
+
 /** VINS-Mono's rule: mean parallax against the keyframe before it, rotation removed, or too few tracks in common. */
 bool isKeyframe(const Window& window, const Frame& frame, const Frame& previous);
 

@@ -3,6 +3,7 @@
 #include <viwo/core/ImuSample.h>
 #include <viwo/core/Options.h>
 #include <viwo/core/WheelSample.h>
+#include <viwo/estimator/InitializerOptions.h>
 
 #include <string>
 #include <vector>
@@ -31,7 +32,6 @@ struct FactorOptions : Options<FactorOptions>
 	bool plane_factor = true;
 	bool plane_pairwise = false;
 	bool wheels_in_initialization = true;
-	bool paper_mean_gyro_bias = false;
 	bool slip_gate = true;
 	bool standstill_factor = true;
 	bool estimate_wheel_intrinsics = true;
@@ -44,7 +44,6 @@ struct FactorOptions : Options<FactorOptions>
 		v("plane_factor", plane_factor, "planar motion (paper Eq. 20, as a plane state)");
 		v("plane_pairwise", plane_pairwise, "the paper's form: each frame against the oldest, instead of a plane state");
 		v("wheels_in_initialization", wheels_in_initialization, "start from wheels at once, and wheel rows in the alignment (paper Sec. 5)");
-		v("paper_mean_gyro_bias", paper_mean_gyro_bias, "plain mean of the two gyro biases of Eq. 9 and 10 instead of the weighted one");
 		v("slip_gate", slip_gate, "inflate a wheel factor that contradicts gyro or prediction");
 		v("standstill_factor", standstill_factor, "zero-velocity factor when wheels and gyro are quiet");
 		v("estimate_wheel_intrinsics", estimate_wheel_intrinsics, "left and right scale and track as states");
@@ -166,6 +165,7 @@ struct EstimatorOptions
 	NoiseOptions noise;
 	PriorOptions priors;
 	WindowOptions window;
+	InitializerOptions initializer;
 
 	bool useCamera() const { return mode == Mode::vio || mode == Mode::viwo; }
 	bool useImu() const { return mode != Mode::wheel; }

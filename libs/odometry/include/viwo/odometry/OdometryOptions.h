@@ -22,7 +22,7 @@ struct OdometryOptions
 	/** How long an image waits for IMU and wheel samples that reach up to it, by the log's clock. */
 	static constexpr double max_wait_s = 0.3;
 
-	/** The sections [rawlog], [tracker], [factors], [noise], [priors], [window]. */
+	/** The sections [rawlog], [tracker], [factors], [noise], [priors], [window], [initializer]. */
 	std::vector<OptionsSection> sections();
 
 	/** @throws Error that names file, section and key. */
