@@ -116,6 +116,9 @@ TEST_F(RawlogDamage, TruncatedGzipDeliversWhatWasRead)
 
 TEST_F(RawlogDamage, FlippedByteIsNeverPassedOver)
 {
+#ifdef __SANITIZE_ADDRESS__
+	GTEST_SKIP() << "a damaged length makes MRPT ask for terabytes: std::bad_alloc in an ordinary build, the end in this one";
+#endif
 	const std::string whole = secondBytes();
 	int damaged = 0;
 	for (int i = 1; i < 10; i++)
