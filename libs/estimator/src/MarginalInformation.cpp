@@ -42,15 +42,13 @@ struct NormalEquations
 		}
 	}
 
-	/** Any positive h will do, however small: what is subtracted is bounded by what the same observations added. */
+	/** All landmarks in one product. Any positive h will do, however small: what is subtracted is bounded by what the same observations added. */
 	void eliminateLandmarks()
 	{
-		for (Eigen::Index k = 0; k < landmark_h.size(); ++k)
-		{
-			if (!(landmark_h[k] > std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon())) continue;
-			const Eigen::VectorXd scaled = landmark_H.col(k) / std::sqrt(landmark_h[k]);
-			H.selfadjointView<Eigen::Lower>().rankUpdate(scaled, -1);
-		}
+		const double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+		const Eigen::VectorXd root = landmark_h.unaryExpr([&](double h) { return h > least ? 1 / std::sqrt(h) : 0.0; });
+		landmark_H = landmark_H * root.asDiagonal();
+		H.selfadjointView<Eigen::Lower>().rankUpdate(landmark_H, -1);
 		H = Eigen::MatrixXd(H.selfadjointView<Eigen::Lower>());
 	}
 
