@@ -45,6 +45,7 @@ struct NormalEquations
 	/** All landmarks in one product. Any positive h will do, however small: what is subtracted is bounded by what the same observations added. */
 	void eliminateLandmarks()
 	{
+		if (landmark_h.size() == 0) return;  // Eigen divides by the number of columns
 		const double least = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 		const Eigen::VectorXd root = landmark_h.unaryExpr([&](double h) { return h > least ? 1 / std::sqrt(h) : 0.0; });
 		landmark_H = landmark_H * root.asDiagonal();
