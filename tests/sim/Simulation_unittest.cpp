@@ -166,6 +166,74 @@ TEST(Simulation, BlackOutAndMissingCamera)
 	EXPECT_GT(blind.imu, 500);
 }
 
+/** Centre of the dark pixels, against that of the projected panel, cell by cell. */
+TEST(Simulation, ImagesShowWhatIsSeenAtTheirTimesOffsetIncluded)
+{
+	std::vector<Material> materials(2);
+	materials[0].albedo = 0.9;
+	materials[1].albedo = 0.02;
+	std::vector<Surface> surfaces;
+	appendPanel(surfaces, {4, 0, 1.5}, 80, 80, M_PI, 0);
+	appendPanel(surfaces, {3.99, 0.4, 0.6}, 0.8, 0.8, M_PI, 1);
+	const World world(materials, surfaces, 1);
+	Route route;
+	route.start_yaw_deg = -15;
+	route.segments = "rotate 30 deg";
+	route.yaw_rate_rad_s = 0.3;
+	route.initial_speed = true;
+	route.final_stop = false;
+	Rig rig = smallRig();
+	rig.camera.format = CameraOptions::Format::png;
+	rig.camera.time_offset_ms = 40;
+	rig.image_effects.shot_noise = false;
+	rig.image_effects.read_noise_e = rig.image_effects.vignetting = 0;
+	rig.lidar.enabled = false;
+	const testing::TempFolder folder;
+	Simulation simulation(world, route, rig, 5);
+	const Calibration actual = rig.actualCalibration(simulation.motion(), 5);
+	RawlogReader reader(simulation.run(folder.file("x.rawlog")).rawlog);
+	ObservationAdapter adapter;
+	double worst_px = 0, first_x = -1, last_x = -1;
+	while (const auto observation = reader.next())
+	{
+		const AdaptedObservation adapted = adapter.convert(observation);
+		const auto* image = std::get_if<ImageRef>(&adapted.sample);
+		if (image == nullptr) continue;
+		const mrpt::img::CImage grey = image->grey();
+		const double wall = *grey.ptr<uint8_t>(5, 5);
+		Eigen::Vector2d found(0, 0), expected(0, 0);
+		double weight = 0;
+		for (int y = 0; y < 120; ++y)
+			for (int x = 0; x < 160; ++x)
+			{
+				const double darkness = std::max(0.0, wall - *grey.ptr<uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y)) - 2);
+				found += darkness * Eigen::Vector2d(x, y);
+				weight += darkness;
+			}
+		found /= weight;
+		const Pose3 T_CW = (simulation.motion().at_ns(image->t_ns + nanoseconds(0.04)).T_WO * actual.T_OC).inverse();
+		const auto pixel = [&](int i, int j) -> Eigen::Vector2d
+		{ return *actual.camera.project(T_CW * Eigen::Vector3d(3.99, 0.4 + 0.04 * i, 0.6 + 0.04 * j)); };
+		double area = 0;
+		for (int i = -10; i < 10; ++i)
+			for (int j = -10; j < 10; ++j)
+			{
+				const Eigen::Vector2d across = pixel(i + 1, j + 1) - pixel(i, j), back = pixel(i + 1, j) - pixel(i, j + 1);
+				const double cell = std::abs(across.x() * back.y() - across.y() * back.x());
+				expected += cell * 0.5 * (pixel(i, j) + pixel(i + 1, j + 1));
+				area += cell;
+			}
+		expected /= area;
+		worst_px = std::max(worst_px, (found - expected).norm());
+		std::cout << (found - expected).transpose() << " at " << found.transpose() << "\n";
+		if (first_x < 0) first_x = found.x();
+		last_x = found.x();
+	}
+	measured("panel in the image against its projection, turning at 25 px/s", worst_px, "px");
+	EXPECT_LT(worst_px, 0.05) << "0.04 s of the clock would be 1 px";
+	EXPECT_GT(last_x - first_x, 30);
+}
+
 TEST(Simulation, InterruptedRunLeavesAShorterLog)
 {
 	const testing::TempFolder folder;
