@@ -1,5 +1,7 @@
 #include <viwo/app/Program.h>
+#include <viwo/evaluation/PlotSvg.h>
 #include <viwo/evaluation/Report.h>
+#include <viwo/evaluation/Table.h>
 
 #include <cmath>
 #include <cstdio>
@@ -19,6 +21,7 @@ struct Arguments
 	std::vector<std::string> estimates;
 	std::string alignment = "se3";
 	std::string json;
+	std::string svg;
 	bool nees = false;
 	std::vector<std::string> covariances;
 	double max_ate_m = kNoLimit;
@@ -34,6 +37,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    ->check(CLI::IsMember({"se3", "yaw", "none", "sim3"}))
 	    ->capture_default_str();
 	cli.add_option("--json", a.json, "Write the figures to this file too");
+	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file");
 	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
 	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
 	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(CLI::NonNegativeNumber);
@@ -45,19 +49,19 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum\n"
-	    "  viwo-evaluate -r truth.tum -e wheel/trajectory.tum -e viwo/trajectory.tum --json errors.json\n"
+	    "  viwo-evaluate -r truth.tum -e wheel/trajectory.tum -e viwo/trajectory.tum --json errors.json --svg paths.svg\n"
 	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum --max-ate 0.05 --min-coverage 0.97 --nees\n"
 	    "Exit status: 0 done, 1 failed or over a limit, 2 bad usage.");
 }
 
-EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, size_t index)
+EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, size_t index, std::vector<MatchedPose>& matches)
 {
 	EstimateReport report;
 	report.name = a.estimates[index];
 	const Trajectory estimate = Trajectory::loadTum(report.name);
 	try
 	{
-		report.errors = evaluate(reference, estimate, a.options);
+		report.errors = evaluate(reference, estimate, a.options, &matches);
 	}
 	catch (const Error& e)
 	{
@@ -72,6 +76,11 @@ EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, siz
 		if (report.consistency->pose.poses == 0) throw Error(csv + ": no usable covariance at the stamps of " + report.name);
 	}
 	return report;
+}
+
+std::string alignmentTitle(AlignmentKind kind)
+{
+	return kind == AlignmentKind::none ? "as they are" : std::string("aligned (") + toString(kind) + ")";
 }
 
 /** One line for each limit that is not kept. */
@@ -106,10 +115,18 @@ int evaluateAll(Arguments& a)
 
 	const Trajectory reference = Trajectory::loadTum(a.reference);
 	std::vector<EstimateReport> reports;
-	for (size_t i = 0; i < a.estimates.size(); ++i) reports.push_back(evaluateFile(a, reference, i));
+	std::vector<PlotCurve> curves{plotCurve("reference", reference)};
+	const std::vector<std::string> names = legendNames(a.estimates);
+	for (size_t i = 0; i < a.estimates.size(); ++i)
+	{
+		std::vector<MatchedPose> matches;
+		reports.push_back(evaluateFile(a, reference, i, matches));
+		curves.push_back(plotCurve(names[i] + " (ATE " + fixed(reports.back().errors.ate_xyz_m, 3) + " m)", matches));
+	}
 
 	std::cout << toTable(reports, a.options) << std::flush;
 	if (!a.json.empty()) saveJson(a.json, toJson(a.reference, a.options, reports));
+	if (!a.svg.empty()) saveSvg(a.svg, curves, "Trajectories from above, " + alignmentTitle(a.options.alignment));
 	return withinLimits(a, reports) ? 0 : 1;
 }
 }  // namespace
