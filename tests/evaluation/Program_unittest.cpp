@@ -67,6 +67,20 @@ TEST_F(EvaluateProgram, SeveralEstimates)
 	EXPECT_NEAR(json["estimates"][1]["rpe_trans_percent"].get<double>(), 10, 1.5) << "chord against arc";
 }
 
+TEST_F(EvaluateProgram, DrawsTheAlignedPaths)
+{
+	const ProgramResult result = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("scaled.tum"),
+	                                  "--svg", folder_.file("paths.svg")});
+	EXPECT_EQ(result.status, 0) << result.err;
+	const std::string svg = readFile(folder_.file("paths.svg"));
+	EXPECT_EQ(svg.compare(0, 4, "<svg"), 0);
+	EXPECT_NE(svg.find("moved (ATE 0.000 m)"), std::string::npos) << svg.substr(0, 400);
+	const ProgramResult failed = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--svg", "/nowhere/paths.svg"});
+	EXPECT_EQ(failed.status, 1);
+	EXPECT_EQ(failed.errorLines(), 1u) << failed.err;
+	EXPECT_NE(failed.err.find("/nowhere"), std::string::npos) << failed.err;
+}
+
 TEST_F(EvaluateProgram, Sim3TakesOutScale)
 {
 	run({"-r", folder_.file("ref.tum"), "-e", folder_.file("scaled.tum"), "--align", "sim3", "--json", folder_.file("e.json")});
