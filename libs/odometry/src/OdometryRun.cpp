@@ -11,6 +11,7 @@
 #include <optional>
 #include <thread>
 
+#include "MinuteLog.h"
 #include "RunOutputs.h"
 #include "RunSummary.h"
 
@@ -105,6 +106,7 @@ class Run
 		last_frame_ns_ = e.t_ns;
 		outputs_.add(e, *odometry_.calibration(), odometry_.calibrationEstimate().T_BC);
 		result_.poses = outputs_.poses();
+		minutes_.addFrame(secondsBetween(odometry_.firstFrame_ns(), e.t_ns));
 		if (result_.frames % kFramesBetweenLandmarks == 0) collectLandmarks();
 		if (hooks_.log)
 			for (const auto changes = odometry_.statusChanges(); told_ < changes.size(); ++told_) tell(changes[told_]);
@@ -146,7 +148,7 @@ class Run
 		OdometryOptions effective = options_.odometry;
 		saveOptions(options_.output_dir + "/config.ini", effective.sections(),
 			"Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " + modeNames()[static_cast<size_t>(effective.estimator.mode)]);
-		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts());
+		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts(), minutes_);
 	}
 
 	std::string noPose() const
@@ -165,6 +167,7 @@ class Run
 	Odometry odometry_;
 	Clock::time_point begin_;
 	OdometryRunResult result_;
+	MinuteLog minutes_;
 	std::optional<int64_t> first_ns_;
 	int64_t last_frame_ns_ = 0;
 	double lag_s_ = 0;

@@ -82,7 +82,7 @@ void RunOutputs::add(const FrameEstimate& estimate, const Calibration& calibrati
 		}
 	covariance_.stream() << "," << toString(estimate.status) << "\n";
 
-	if (poses_ == 0) first_pose_ns_ = estimate.t_ns;
+	if (poses_ == 0) first_ = estimate;
 	if (poses_ > 0) path_length_m_ += (estimate.T_WO.p - last_p_WO_).norm();
 	last_p_WO_ = estimate.T_WO.p;
 	last_pose_ns_ = estimate.t_ns;

@@ -25,7 +25,9 @@ class RunOutputs
 
 	int poses() const { return poses_; }
 	double pathLength_m() const { return path_length_m_; }
-	int64_t firstPose_ns() const { return first_pose_ns_; }
+	/** The first frame that had a pose. */
+	const FrameEstimate& first() const { return first_; }
+	int64_t firstPose_ns() const { return first_.t_ns; }
 	int64_t lastPose_ns() const { return last_pose_ns_; }
 
    private:
@@ -38,6 +40,7 @@ class RunOutputs
 	int poses_ = 0;
 	double path_length_m_ = 0;
 	Eigen::Vector3d last_p_WO_ = Eigen::Vector3d::Zero();
-	int64_t first_pose_ns_ = 0, last_pose_ns_ = 0, last_imu_rate_ns_ = 0;
+	FrameEstimate first_;
+	int64_t last_pose_ns_ = 0, last_imu_rate_ns_ = 0;
 };
 }  // namespace viwo

@@ -74,10 +74,35 @@ Json calibrationJson(const Odometry& odometry)
 		{"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
 		{"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
 }
+Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/** What was known when the first pose was given: how well the estimator started. */
+Json firstPoseJson(const FrameEstimate& first, const Calibration& calibration)
+{
+	const Eigen::Quaterniond& q = first.T_WO.R;
+	return {{"t_ns", first.t_ns}, {"status", toString(first.status)}, {"R_WO_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+		{"v_WB_in_B_m_s", vectorJson(first.state.T_WB.R.conjugate() * first.state.v_WB)},
+		{"gyro_bias_in_O_rad_s", vectorJson(calibration.T_OB.R * first.state.b_g)},
+		{"acc_bias_in_O_m_s2", vectorJson(calibration.T_OB.R * first.state.b_a)}};
+}
+
+/** Whether frames become slower, or the program larger, as the log goes on. */
+Json minutesJson(const MinuteLog& log, const StageTimes& times)
+{
+	Json minutes = Json::array();
+	size_t begin = 0;
+	for (const MinuteLog::Minute& minute : log.minutes())
+	{
+		const StageTimes::Statistics s = times.statistics("frame", begin, begin + minute.frames);
+		minutes.push_back({{"frames", minute.frames}, {"frame_median_ms", s.median_ms}, {"rss_mb", minute.rss_mb}});
+		begin += minute.frames;
+	}
+	return minutes;
+}
 }  // namespace
 
 void writeSummary(const std::string& path, const OdometryRunOptions& options, const OdometryRunResult& result, const Odometry& odometry,
-	const RunOutputs& outputs, const RawlogCounts& counts)
+	const RunOutputs& outputs, const RawlogCounts& counts, const MinuteLog& minutes)
 {
 	const EstimatorCounters n = odometry.counters();
 	Json j;
@@ -94,6 +119,7 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["duration_s"] = result.duration_s;
 	j["path_length_m"] = result.path_length_m;
 	j["first_pose_s"] = outputs.poses() > 0 ? Json(secondsBetween(odometry.firstFrame_ns(), outputs.firstPose_ns())) : Json();
+	j["first_pose"] = outputs.poses() > 0 ? firstPoseJson(outputs.first(), *odometry.calibration()) : Json();
 	j["initialization_time_s"] = timeToStatus(odometry, Status::tracking);
 	j["coverage"] = result.duration_s > 0 ? secondsBetween(outputs.firstPose_ns(), outputs.lastPose_ns()) / result.duration_s : 0.0;
 	j["reinitializations"] = n.reinitializations;
@@ -108,6 +134,7 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["realtime_factor"] = result.wall_time_s > 0 ? result.duration_s / result.wall_time_s : 0.0;
 	j["peak_rss_mb"] = peakRss_mb();
 	j["stages_ms"] = stagesJson(odometry.stageTimes());
+	j["minutes"] = minutesJson(minutes, odometry.stageTimes());
 	AtomicFile file(path);
 	file.stream() << j.dump(2) << "\n";
 	file.commit();

@@ -1,6 +1,7 @@
 #include <viwo/odometry/StageTimes.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace viwo
@@ -15,10 +16,17 @@ void StageTimes::end(const std::string& stage)
 
 StageTimes::Statistics StageTimes::statistics(const std::string& stage) const
 {
+	return statistics(stage, 0, std::numeric_limits<size_t>::max());
+}
+
+StageTimes::Statistics StageTimes::statistics(const std::string& stage, size_t from, size_t to) const
+{
 	Statistics result;
 	const auto it = stages_.find(stage);
-	if (it == stages_.end() || it->second.ms.empty()) return result;
-	std::vector<float> ms = it->second.ms;
+	if (it == stages_.end()) return result;
+	const auto at = [&](size_t i) { return it->second.ms.begin() + static_cast<std::ptrdiff_t>(std::min(i, it->second.ms.size())); };
+	if (at(from) >= at(to)) return result;
+	std::vector<float> ms(at(from), at(to));
 	std::sort(ms.begin(), ms.end());
 	const auto quantile = [&](double q) { return static_cast<double>(ms[static_cast<size_t>(q * static_cast<double>(ms.size() - 1))]); };
 	result.calls = ms.size();

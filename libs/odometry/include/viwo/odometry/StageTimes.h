@@ -21,6 +21,8 @@ class StageTimes
 	void end(const std::string& stage);
 
 	Statistics statistics(const std::string& stage) const;
+	/** Of the calls with these indices, [from, to). */
+	Statistics statistics(const std::string& stage, size_t from, size_t to) const;
 	std::vector<std::string> stages() const;
 
    private:

@@ -1,0 +1,68 @@
+#include "Ablation.h"
+
+#include "Drives.h"
+
+namespace viwo::accuracy
+{
+namespace
+{
+/** Above this part of the length a run has diverged. */
+constexpr double kDiverged_percent = 5;
+
+struct Part
+{
+	std::string name, key;
+};
+
+std::vector<Part> parts()
+{
+	return {{"plane factor", "plane_factor"},
+	        {"wheel factor", "wheel_factor"},
+	        {"wheels in the initialisation", "wheels_in_initialization"},
+	        {"wheel intrinsics", "estimate_wheel_intrinsics"},
+	        {"slip gate", "slip_gate"}};
+}
+
+std::vector<RunRecipe> runs(const SimulatedDrive& drive, const Part& part, int seeds)
+{
+	return runsOf(drive, seeds, "viwo", "no_" + part.key, {"factors." + part.key + "=false"});
+}
+}  // namespace
+
+std::vector<std::string> Ablation::bars() const
+{
+	std::vector<std::string> names;
+	for (const Part& part : parts()) names.push_back("without " + part.name + ": worst ATE");
+	return names;
+}
+
+void Ablation::plan(Runner& runner) const
+{
+	for (const SimulatedDrive& drive : {corridorDrive(), lobbyDrive()})
+	{
+		wantAll(runner, runsOf(drive, settings_.seeds));
+		for (const Part& part : parts()) wantAll(runner, runs(drive, part, settings_.seeds));
+	}
+}
+
+std::vector<Row> Ablation::judge(const Runner& runner) const
+{
+	const auto percent = [](const Score& s) { return s.percent(); };
+	std::vector<Row> rows;
+	for (const Part& part : parts())
+	{
+		std::vector<double> all;
+		std::string detail;
+		for (const SimulatedDrive& drive : {corridorDrive(), lobbyDrive()})
+		{
+			const auto scores = scoresOf(runner, runs(drive, part, settings_.seeds));
+			const std::vector<double> off = each(scores, percent), on = each(scoresOf(runner, runsOf(drive, settings_.seeds)), percent);
+			detail += (detail.empty() ? "" : "; ") + listOf(drive.name, off, 1, "%") + problemsOf(scores) + ", " +
+			          listOf("median", {median(off)}, 1, "%") + listOf(" with it", {median(on)}, 1, "%");
+			all.insert(all.end(), off.begin(), off.end());
+		}
+		rows.push_back(atMost(bars()[rows.size()], worst(all), kDiverged_percent, "%", detail));
+	}
+	return rows;
+}
+}  // namespace viwo::accuracy

@@ -1,0 +1,85 @@
+#include "ConsistencyOfCovariance.h"
+
+#include <viwo/evaluation/Consistency.h>
+#include <viwo/odometry/OdometryOptions.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "Drives.h"
+
+namespace viwo::accuracy
+{
+namespace
+{
+constexpr int kRuns = 20;
+
+std::string setting(const std::string& key, double value)
+{
+	std::ostringstream text;
+	text << key << "=" << value;
+	return text.str();
+}
+
+/** Wheels as the estimator expects them: no error but what is drawn from its priors. Its left and right scales are independent, so their
+ * mean has 1/sqrt(2) of the deviation of each and their difference sqrt(2) of it. */
+std::vector<RunRecipe> runs()
+{
+	const PriorOptions priors = OdometryOptions().estimator.priors;
+	const SimulatedDrive drive{"free",
+	                           "lobby",
+	                           "lobby_free",
+	                           {"lidar.enabled=false", "route.duration_s=45", "wheels.radius_error=0", "wheels.left_right_difference=0",
+	                            "wheels.track_error=0", setting("wheels.radius_deviation", priors.wheel_scale / std::sqrt(2)),
+	                            setting("wheels.left_right_deviation", priors.wheel_scale * std::sqrt(2)),
+	                            setting("wheels.track_deviation", priors.track_relative)}};
+	return runsOf(drive, kRuns);
+}
+
+Row within(const std::string& name, const Nees& nees, const std::string& detail)
+{
+	Row row = atMost(name, nees.average(), 2, "", detail);
+	row.min = 0.5;
+	return row;
+}
+
+void accumulate(Nees& sum, const Nees& more)
+{
+	sum.sum += more.sum;
+	sum.degrees_of_freedom += more.degrees_of_freedom;
+	sum.poses += more.poses;
+}
+}  // namespace
+
+std::vector<std::string> ConsistencyOfCovariance::bars() const
+{
+	return {"consistency over 20 runs: ANEES of position per degree of freedom", "consistency over 20 runs: ANEES of yaw"};
+}
+
+void ConsistencyOfCovariance::plan(Runner& runner) const
+{
+	wantAll(runner, runs());
+}
+
+std::vector<Row> ConsistencyOfCovariance::judge(const Runner& runner) const
+{
+	Nees position, yaw;
+	std::vector<double> positions, yaws;
+	size_t invalid = 0;
+	for (const RunRecipe& run : runs())
+	{
+		const Outcome outcome = runner.outcome(run);
+		if (outcome.failed()) throw Error(outcome.error);
+		const auto covariances = loadCovariances(outcome.file("trajectory_covariance.csv"));
+		const viwo::Consistency c = consistency(outcome.truth(), outcome.trajectory(), covariances, EvaluationOptions().max_gap_s);
+		accumulate(position, c.position);
+		accumulate(yaw, c.yaw);
+		invalid += c.invalid;
+		positions.push_back(c.position.average());
+		yaws.push_back(c.yaw.average());
+	}
+	const std::string note = invalid == 0 ? "" : "; " + std::to_string(invalid) + " covariances are not positive definite";
+	return {within(bars()[0], position, listOf("each run", positions, 1, "") + note),
+	        within(bars()[1], yaw, listOf("each run", yaws, 1, ""))};
+}
+}  // namespace viwo::accuracy

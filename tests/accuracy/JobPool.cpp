@@ -1,0 +1,214 @@
+#include "JobPool.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <viwo/app/Program.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+namespace viwo::accuracy
+{
+namespace
+{
+/** Longer than any job takes on a slow machine: a program that hangs must not hang the table. */
+constexpr double kTimeLimit_s = 3600;
+
+double now_s()
+{
+	return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/** For a child right after fork: input and output to files. */
+void redirect(const std::string& path, int descriptor)
+{
+	const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+	if (file >= 0) dup2(file, descriptor);
+}
+
+int spawn(const Job& job)
+{
+	std::vector<char*> argv;
+	for (const std::string& word : job.command) argv.push_back(const_cast<char*>(word.c_str()));
+	argv.push_back(nullptr);
+	const int pid = fork();
+	if (pid != 0) return pid;
+	prctl(PR_SET_PDEATHSIG, SIGKILL);
+	redirect("/dev/null", STDIN_FILENO);
+	redirect(job.log_stem + ".out", STDOUT_FILENO);
+	redirect(job.log_stem + ".err", STDERR_FILENO);
+	execv(argv[0], argv.data());
+	std::perror(argv[0]);
+	_exit(127);
+}
+
+int spawnLoad()
+{
+	const int pid = fork();
+	if (pid != 0) return pid;
+	prctl(PR_SET_PDEATHSIG, SIGKILL);
+	for (volatile double x = 1;; x = x * 1.0000001 + 1e-9)
+		;
+}
+
+std::string describe(int status, const std::string& err_path)
+{
+	const std::string line = lastLine(err_path);
+	if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status)) + (line.empty() ? "" : ": " + line);
+	return line.empty() ? "exit status " + std::to_string(WEXITSTATUS(status)) : line;
+}
+}  // namespace
+
+std::string lastLine(const std::string& path)
+{
+	std::ifstream file(path);
+	std::string last;
+	for (std::string line; std::getline(file, line);)
+		if (!line.empty()) last = line;
+	return last;
+}
+
+size_t JobPool::add(Job job)
+{
+	Entry entry;
+	entry.job = std::move(job);
+	entries_.push_back(std::move(entry));
+	return entries_.size() - 1;
+}
+
+void JobPool::run(size_t parallel)
+{
+	begin_s_ = now_s();
+	try
+	{
+		while (!allDone())
+		{
+			if (app::interrupted()) throw Error("interrupted; simulated logs that are finished are kept for the next time");
+			startDue(parallel);
+			collect();
+			std::this_thread::sleep_for(std::chrono::milliseconds(20));
+		}
+	}
+	catch (...)
+	{
+		stopAll();
+		throw;
+	}
+}
+
+void JobPool::startDue(size_t parallel)
+{
+	for (Entry& entry : entries_)
+		if (!entry.job.alone && running() < parallel && due(entry)) start(entry);
+	if (running() > 0) return;
+	const auto together = [](const Entry& e) { return !e.job.alone && e.state != State::done; };
+	if (std::any_of(entries_.begin(), entries_.end(), together)) return;
+	for (Entry& entry : entries_)
+		if (running() == 0 && due(entry)) start(entry);
+}
+
+bool JobPool::due(Entry& entry)
+{
+	if (entry.state != State::waiting) return false;
+	for (const size_t i : entry.job.after)
+	{
+		if (entries_[i].state != State::done) return false;
+		if (entries_[i].error.empty()) continue;
+		end(entry, entries_[i].job.label + ": " + entries_[i].error);
+		return false;
+	}
+	return true;
+}
+
+void JobPool::start(Entry& entry)
+{
+	try
+	{
+		if (entry.job.prepare && !entry.job.prepare()) return end(entry, "");
+	}
+	catch (const std::exception& e)
+	{
+		return end(entry, e.what());
+	}
+	const unsigned cores = std::max(2U, std::thread::hardware_concurrency());
+	if (entry.job.loaded)
+		for (unsigned i = 1; i < cores; ++i) load_.push_back(spawnLoad());
+	entry.pid = spawn(entry.job);
+	if (entry.pid < 0) throw Error("cannot start " + entry.job.command.front());
+	entry.begin_s = now_s();
+	entry.state = State::running;
+}
+
+void JobPool::collect()
+{
+	for (Entry& entry : entries_)
+	{
+		if (entry.state != State::running) continue;
+		if (now_s() - entry.begin_s > kTimeLimit_s) kill(entry.pid, SIGKILL);
+		int status = 0;
+		if (waitpid(entry.pid, &status, WNOHANG) != entry.pid) continue;
+		std::string error;
+		try
+		{
+			if (status != 0)
+				error = describe(status, entry.job.log_stem + ".err");
+			else if (entry.job.succeeded)
+				entry.job.succeeded();
+		}
+		catch (const std::exception& e)
+		{
+			error = e.what();
+		}
+		end(entry, error);
+	}
+}
+
+void JobPool::end(Entry& entry, const std::string& error)
+{
+	for (const int pid : load_)
+	{
+		kill(pid, SIGKILL);
+		waitpid(pid, nullptr, 0);
+	}
+	load_.clear();
+	entry.error = error;
+	entry.state = State::done;
+	++reported_;
+	report(entry);
+}
+
+size_t JobPool::running() const
+{
+	return static_cast<size_t>(std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.state == State::running; }));
+}
+
+bool JobPool::allDone() const
+{
+	return std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return e.state == State::done; });
+}
+
+void JobPool::stopAll()
+{
+	for (const int pid : load_) kill(pid, SIGKILL);
+	for (Entry& entry : entries_)
+	{
+		if (entry.state != State::running) continue;
+		kill(entry.pid, SIGKILL);
+		waitpid(entry.pid, nullptr, 0);
+	}
+}
+
+void JobPool::report(const Entry& entry)
+{
+	const int elapsed_s = static_cast<int>(now_s() - begin_s_);
+	const double took_s = entry.begin_s > 0 ? now_s() - entry.begin_s : 0;
+	std::fprintf(stderr, "[%zu/%zu] %02d:%02d  %s (%.1f s)%s%s\n", reported_, entries_.size(), elapsed_s / 60, elapsed_s % 60,
+	             entry.job.label.c_str(), took_s, entry.error.empty() ? "" : "  FAILED: ", entry.error.c_str());
+}
+}  // namespace viwo::accuracy

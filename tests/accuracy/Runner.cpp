@@ -1,0 +1,102 @@
+#include "Runner.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+#include <viwo/app/Program.h>
+#include <viwo/odometry/OdometryOptions.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace viwo::accuracy
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+void overrule(OdometryOptions& options, const std::string& word)
+{
+	const size_t dot = word.find('.'), equals = word.find('=');
+	const std::string section = word.substr(0, dot);
+	for (const OptionsSection& s : options.sections())
+	{
+		if (s.name != section) continue;
+		mrpt::config::CConfigFileMemory memory;
+		memory.write(section, word.substr(dot + 1, equals - dot - 1), word.substr(equals + 1));
+		s.options->loadFromConfigFile(memory, section);
+		return;
+	}
+	throw Error(word + ": there is no section " + section);
+}
+
+/** The configuration with what the run overrules. */
+void writeConfig(const RunRecipe& recipe, const std::string& path)
+{
+	OdometryOptions options;
+	if (!recipe.config.empty()) options.load(app::findShare("config_files/viwo-odometry/" + recipe.config));
+	for (const std::string& word : recipe.overrides) overrule(options, word);
+	saveOptions(path, options.sections());
+}
+}  // namespace
+
+Json Outcome::summary() const
+{
+	return loadJson(file("summary.json"));
+}
+Trajectory Outcome::trajectory() const
+{
+	return Trajectory::loadTum(file("trajectory.tum"));
+}
+Trajectory Outcome::truth() const
+{
+	return Trajectory::loadTum(ground_truth);
+}
+TrajectoryErrors Outcome::errors() const
+{
+	return evaluate(truth(), trajectory(), EvaluationOptions());
+}
+
+Runner::Runner(std::string folder, std::string programs)
+    : folder_(std::move(folder)), programs_(std::move(programs)), cache_(folder_ + "/cache", programs_)
+{
+}
+
+void Runner::want(const RunRecipe& recipe)
+{
+	if (runs_.count(recipe.name()) != 0) return;
+	const auto [log, is_new] = logs_.try_emplace(cache_.rawlog(recipe.log), 0);
+	if (is_new) log->second = pool_.add(cache_.job(recipe.log));
+	runs_[recipe.name()] = pool_.add(runJob(recipe, log->second));
+}
+
+Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
+{
+	const std::string folder = folderOf(recipe), config = folder + "/given.ini";
+	const bool needs_config = !recipe.config.empty() || !recipe.overrides.empty();
+	Job job;
+	job.label = "run " + recipe.name();
+	job.after = {log_job};
+	job.prepare = [recipe, folder, config, needs_config]
+	{
+		fs::remove_all(folder);
+		fs::create_directories(folder);
+		if (needs_config) writeConfig(recipe, config);
+		return true;
+	};
+	job.command = {programs_ + "/viwo-odometry", "-i", cache_.rawlog(recipe.log), "-o", folder, "--mode", recipe.mode};
+	if (needs_config) job.command.insert(job.command.end(), {"-c", config});
+	job.log_stem = folder + "/program";
+	job.alone = recipe.alone || recipe.loaded;
+	job.loaded = recipe.loaded;
+	return job;
+}
+
+void Runner::execute(size_t parallel)
+{
+	pool_.run(std::max<size_t>(1, parallel));
+}
+
+Outcome Runner::outcome(const RunRecipe& recipe) const
+{
+	return {pool_.error(runs_.at(recipe.name())), folderOf(recipe), cache_.groundTruth(recipe.log)};
+}
+}  // namespace viwo::accuracy

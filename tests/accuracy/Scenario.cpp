@@ -1,0 +1,83 @@
+#include "Scenario.h"
+
+#include <viwo/app/Program.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace viwo::accuracy
+{
+namespace
+{
+/** To be raised when the simulator makes other logs of the same inputs. */
+constexpr const char* kSimulatorVersion = "1";
+
+std::string contentOf(const std::string& path)
+{
+	std::ifstream file(path, std::ios::binary);
+	if (!file) throw Error(path + ": cannot be read");
+	return {std::istreambuf_iterator<char>(file), {}};
+}
+}  // namespace
+
+SimulatedDrive SimulatedDrive::with(const std::string& what, const std::vector<std::string>& more) const
+{
+	SimulatedDrive drive = *this;
+	drive.name += "-" + what;
+	drive.overrides.insert(drive.overrides.end(), more.begin(), more.end());
+	return drive;
+}
+
+std::string SimulatedDrive::worldPath() const
+{
+	return app::findShare("worlds/" + world + ".ini");
+}
+std::string SimulatedDrive::routePath() const
+{
+	return app::findShare("routes/" + route + ".ini");
+}
+std::string SimulatedDrive::rigPath() const
+{
+	return app::findShare("rigs/" + rig + ".ini");
+}
+
+LogRecipe SimulatedDrive::log(uint64_t seed) const
+{
+	LogRecipe recipe;
+	recipe.name = name + "-s" + std::to_string(seed);
+	recipe.program = "viwo-sim";
+	// The threads of one log are not worth their while beside other logs.
+	recipe.arguments = {"--world", worldPath(), "--route", routePath(), "--rig", rigPath(), "--seed", std::to_string(seed), "--jobs", "1"};
+	recipe.content = std::string("viwo-sim, version ") + kSimulatorVersion + "\nseed " + std::to_string(seed) + "\n";
+	for (const std::string& word : overrides)
+	{
+		recipe.arguments.insert(recipe.arguments.end(), {"--set", word});
+		recipe.content += word + "\n";
+	}
+	for (const std::string& path : {worldPath(), routePath(), rigPath()}) recipe.content += "----\n" + contentOf(path);
+	return recipe;
+}
+
+// Scans are not what is measured: without them logs are made and read faster.
+SimulatedDrive corridorDrive()
+{
+	return {"corridor", "corridor", "corridor_out_and_back", {"lidar.enabled=false"}};
+}
+SimulatedDrive lobbyDrive()
+{
+	return {"lobby", "lobby", "lobby_arc", {"lidar.enabled=false"}};
+}
+
+LogRecipe importedLog(const std::string& name, const std::string& layout, const std::string& folder,
+                      const std::vector<std::string>& options)
+{
+	LogRecipe recipe;
+	recipe.name = name;
+	recipe.program = "viwo-import";
+	recipe.arguments = {layout, folder};
+	recipe.arguments.insert(recipe.arguments.end(), options.begin(), options.end());
+	for (const std::string& word : recipe.arguments) recipe.content += word + "\n";
+	recipe.cached = false;
+	return recipe;
+}
+}  // namespace viwo::accuracy

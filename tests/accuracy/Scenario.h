@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viwo::accuracy
+{
+/** A rawlog with its truth, and how it is made. */
+struct LogRecipe
+{
+	std::string name;                    //!< for messages and folders
+	std::string program;                 //!< viwo-sim or viwo-import
+	std::vector<std::string> arguments;  //!< all but -o
+	std::string content;                 //!< of all inputs: logs of the same content are the same log
+	bool cached = true;                  //!< false: made anew every time
+};
+
+/** A drive that is simulated. */
+struct SimulatedDrive
+{
+	std::string name;   //!< short, e.g. "corridor"
+	std::string world;  //!< names of files of share/viwo
+	std::string route;
+	std::vector<std::string> overrides;  //!< section.key=value of route and rig
+	std::string rig = "turtlebot2";
+
+	SimulatedDrive with(const std::string& what, const std::vector<std::string>& more) const;
+	LogRecipe log(uint64_t seed) const;
+	std::string worldPath() const;
+	std::string routePath() const;
+	std::string rigPath() const;
+};
+
+/** Ninety seconds down a corridor and back, with a turn on the spot. */
+SimulatedDrive corridorDrive();
+/** Ninety seconds on a circle of 1 m radius. */
+SimulatedDrive lobbyDrive();
+
+/** @param layout kitti or euroc. */
+LogRecipe importedLog(const std::string& name, const std::string& layout, const std::string& folder,
+                      const std::vector<std::string>& options);
+
+/** A run of viwo-odometry on a log. */
+struct RunRecipe
+{
+	RunRecipe(LogRecipe of_log) : log(std::move(of_log)) {}
+
+	LogRecipe log;
+	std::string mode = "viwo";
+	std::string variant;                 //!< told apart from other runs of that mode on that log
+	std::vector<std::string> overrides;  //!< section.key=value of the configuration
+	std::string config;                  //!< a file of share/viwo/config_files/viwo-odometry; empty: the default
+	bool alone = false;                  //!< nothing else runs meanwhile
+	bool loaded = false;                 //!< all other cores are busy meanwhile
+
+	std::string name() const { return log.name + "-" + mode + (variant.empty() ? "" : "-" + variant); }
+};
+}  // namespace viwo::accuracy
