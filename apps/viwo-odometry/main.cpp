@@ -75,6 +75,7 @@ int main(int argc, char** argv)
 		const OdometryRunResult result = runOdometry(a.run, hooks);
 		bar.clear();
 		printResult(a.run, result);
+		if (!result.left_out.empty()) throw Error(result.left_out);
 		return result.interrupted ? 1 : 0;
 	});
 }

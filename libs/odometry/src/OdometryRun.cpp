@@ -8,9 +8,12 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <optional>
 #include <thread>
 
+#include "GapLog.h"
+#include "InputCheck.h"
 #include "MinuteLog.h"
 #include "RunOutputs.h"
 #include "RunSummary.h"
@@ -43,7 +46,11 @@ class Run
 		{
 			replay();
 		}
-		catch (const Error&)
+		catch (const Error& e)
+		{
+			error = std::make_exception_ptr(Error(withRawlog(e.what())));
+		}
+		catch (const std::exception&)
 		{
 			error = std::current_exception();
 		}
@@ -85,6 +92,7 @@ class Run
 			if (t_s < options_.from_s) continue;
 			if (t_s > options_.to_s) break;
 			keepPace(t_s);
+			if (const auto gap = gaps_.add(observation->sensorLabel, t_ns)) tell(*gap);
 			odometry_.processObservation(observation);
 		}
 		odometry_.finish();
@@ -122,6 +130,40 @@ class Run
 		hooks_.log(std::string(text) + toString(c.from) + " -> " + toString(c.to) + ": " + c.cause);
 	}
 
+	void tell(const GapLog::Gap& gap) const
+	{
+		if (!hooks_.log) return;
+		char text[96];
+		const double t_s = secondsBetween(result_.frames > 0 ? odometry_.firstFrame_ns() : *first_ns_, gap.begin_ns);
+		std::snprintf(text, sizeof text, "%8.2f s  gap of %.2f s in ", t_s, gap.duration_s);
+		hooks_.log(text + gap.label);
+	}
+
+	/** The message with the name of the rawlog, unless it stands there already. */
+	std::string withRawlog(const std::string& message) const
+	{
+		return message.find(options_.rawlog) == std::string::npos ? options_.rawlog + ": " + message : message;
+	}
+
+	/** Observations that could not be used, e.g. "IMU: 3 not_finite, 1 late; ODOMETRY: 2 duplicate_stamp"; empty if all could. */
+	std::string leftOut() const
+	{
+		std::map<std::string, std::string> reasons;	 // by label
+		const auto add = [&](const std::string& label, uint64_t count, const std::string& reason) {
+			if (count > 0) reasons[label] += (reasons[label].empty() ? ": " : ", ") + std::to_string(count) + " " + reason;
+		};
+		for (const auto& [key, sensor] : reader_.counts().sensors)
+		{
+			add(key.first, sensor.late, "late");
+			add(key.first, sensor.unstamped, "unstamped");
+		}
+		for (const auto& [label, counts] : odometry_.observationCounts())
+			for (const auto& [reason, count] : counts.rejected) add(label, count, reason);
+		std::string text;
+		for (const auto& [label, list] : reasons) text += (text.empty() ? "" : "; ") + label + list;
+		return text;
+	}
+
 	std::string note(const FrameEstimate& e) const
 	{
 		char text[160];
@@ -144,11 +186,13 @@ class Run
 		result_.path_length_m = outputs_.pathLength_m();
 		result_.final_status = failed ? "failed" : toString(odometry_.status());
 		result_.summary_path = options_.output_dir + "/summary.json";
+		if (const std::string left_out = leftOut(); !left_out.empty())
+			result_.left_out = options_.rawlog + ": observations were left out (" + left_out + "); the results are of the rest";
 		outputs_.commit();
 		OdometryOptions effective = options_.odometry;
 		saveOptions(options_.output_dir + "/config.ini", effective.sections(),
 			"Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " + modeNames()[static_cast<size_t>(effective.estimator.mode)]);
-		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts(), minutes_);
+		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts(), minutes_, gaps_);
 	}
 
 	std::string noPose() const
@@ -168,6 +212,7 @@ class Run
 	Clock::time_point begin_;
 	OdometryRunResult result_;
 	MinuteLog minutes_;
+	GapLog gaps_{options_.odometry};
 	std::optional<int64_t> first_ns_;
 	int64_t last_frame_ns_ = 0;
 	double lag_s_ = 0;
@@ -177,6 +222,7 @@ class Run
 
 OdometryRunResult runOdometry(const OdometryRunOptions& options, const OdometryRunHooks& hooks)
 {
+	checkInput(options);
 	Run run(options, hooks);
 	return run.go();
 }

@@ -74,6 +74,14 @@ Json calibrationJson(const Odometry& odometry)
 		{"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
 		{"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
 }
+Json gapsJson(const GapLog& log, int64_t first_frame_ns)
+{
+	Json gaps = Json::array();
+	for (const GapLog::Gap& gap : log.gaps())
+		gaps.push_back({{"label", gap.label}, {"t_s", secondsBetween(first_frame_ns, gap.begin_ns)}, {"duration_s", gap.duration_s}});
+	return gaps;
+}
+
 Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /** What was known when the first pose was given: how well the estimator started. */
@@ -102,7 +110,7 @@ Json minutesJson(const MinuteLog& log, const StageTimes& times)
 }  // namespace
 
 void writeSummary(const std::string& path, const OdometryRunOptions& options, const OdometryRunResult& result, const Odometry& odometry,
-	const RunOutputs& outputs, const RawlogCounts& counts, const MinuteLog& minutes)
+	const RunOutputs& outputs, const RawlogCounts& counts, const MinuteLog& minutes, const GapLog& gaps)
 {
 	const EstimatorCounters n = odometry.counters();
 	Json j;
@@ -128,6 +136,7 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["imu_gaps"] = n.imu_gaps;
 	j["wheel_gaps"] = n.wheel_gaps;
 	j["status_changes"] = statusJson(odometry);
+	j["gaps"] = gapsJson(gaps, odometry.firstFrame_ns());
 	j["calibration"] = calibrationJson(odometry);
 	j["observations"] = observationsJson(odometry, counts);
 	j["wall_time_s"] = result.wall_time_s;

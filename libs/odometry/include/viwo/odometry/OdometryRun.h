@@ -37,6 +37,8 @@ struct OdometryRunResult
 	double wall_time_s = 0;
 	std::string final_status;
 	bool interrupted = false;
+	/** One line on observations that could not be used (not finite, stamps that do not increase, ...); empty if all could. */
+	std::string left_out;
 	std::string summary_path;
 };
 
