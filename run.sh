@@ -5,6 +5,7 @@ cd "$(dirname "$0")"
 
 build_dir=${VIWO_BUILD_DIR:-build}
 jobs=${VIWO_JOBS:-$(nproc)}
+targets=() # empty: all
 packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libopencv-dev nlohmann-json3-dev libcli11-dev libyaml-cpp-dev libgtest-dev
 	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-system-dev mrpt-apps zlib1g-dev)
 
@@ -54,29 +55,32 @@ configure() {
 	}
 }
 
+# build [cmake options]
 build() {
 	install_missing "${packages[@]}"
 	configure "$build_dir" -DCMAKE_BUILD_TYPE=Release "$@"
-	cmake --build "$build_dir" -j "$jobs"
+	cmake --build "$build_dir" -j "$jobs" ${targets[@]+--target "${targets[@]}"}
 }
 
 demo() {
+	targets=(viwo-odometry viwo-evaluate)
 	build
 	local bin=$build_dir/bin out=$build_dir/demo mode estimates=()
-	mkdir -p "$out"
 	for mode in wheel vio viwo; do
 		echo
 		echo "== viwo-odometry --mode $mode"
-		"$bin/viwo-odometry" -i rawlogs/sample.rawlog -o "$out/$mode" --mode "$mode"
+		rm -rf "${out:?}/$mode"
+		mkdir -p "$out/$mode"
+		# A mode that finds no start on this motion is a row without figures in the table.
+		"$bin/viwo-odometry" -i rawlogs/sample.rawlog -o "$out/$mode" --mode "$mode" || echo "no trajectory in mode $mode"
 		estimates+=(-e "$out/$mode/trajectory.tum")
 	done
 	echo
-	echo "Written:"
-	ls -1 "$out"/{wheel,vio,viwo}/* | sed 's/^/  /'
-	echo "  $out/errors.json"
+	echo "Errors against rawlogs/sample_ground_truth.tum, after alignment by rotation and translation:"
+	"$bin/viwo-evaluate" -r rawlogs/sample_ground_truth.tum "${estimates[@]}" --allow-missing --json "$out/errors.json" --svg "$out/trajectories.svg"
 	echo
-	echo "Errors against rawlogs/sample_ground_truth.tum, after alignment of rotation and translation:"
-	"$bin/viwo-evaluate" -r rawlogs/sample_ground_truth.tum "${estimates[@]}" --json "$out/errors.json"
+	echo "Written:"
+	find "$out" -type f | LC_ALL=C sort | sed 's/^/  /'
 }
 
 run_tests() {

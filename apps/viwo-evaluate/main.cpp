@@ -22,6 +22,7 @@ struct Arguments
 	std::string alignment = "se3";
 	std::string json;
 	std::string svg;
+	bool allow_missing = false;
 	bool nees = false;
 	std::vector<std::string> covariances;
 	double max_ate_m = kNoLimit;
@@ -36,6 +37,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--align", a.alignment, "What is taken out before comparing: se3, yaw (z rotation and shift), none or sim3 (with scale)")
 	    ->check(CLI::IsMember({"se3", "yaw", "none", "sim3"}))
 	    ->capture_default_str();
+	cli.add_flag("--allow-missing", a.allow_missing, "An estimate whose file is not there is a row without figures (and over every limit)");
 	cli.add_option("--json", a.json, "Write the figures to this file too");
 	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file");
 	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
@@ -54,10 +56,27 @@ void declare(CLI::App& cli, Arguments& a)
 	    "Exit status: 0 done, 1 failed or over a limit, 2 bad usage.");
 }
 
+/** Of an estimate that is not there. */
+TrajectoryErrors noErrors()
+{
+	constexpr double none = std::numeric_limits<double>::quiet_NaN();
+	TrajectoryErrors e;
+	e.length_m = e.estimate_length_m = none;
+	e.ate_xy_m = e.ate_z_m = e.ate_xyz_m = e.ate_median_m = e.ate_max_m = none;
+	e.yaw_rmse_deg = e.rotation_rmse_deg = none;
+	e.rpe_interval_trans_m = e.rpe_interval_rot_deg = e.rpe_trans_percent = e.rpe_rot_deg_per_m = none;
+	return e;
+}
+
 EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, size_t index, std::vector<MatchedPose>& matches)
 {
 	EstimateReport report;
 	report.name = a.estimates[index];
+	if (a.allow_missing && !std::filesystem::exists(report.name))
+	{
+		report.errors = noErrors();
+		return report;
+	}
 	const Trajectory estimate = Trajectory::loadTum(report.name);
 	try
 	{
@@ -89,7 +108,7 @@ bool withinLimits(const Arguments& a, const std::vector<EstimateReport>& reports
 	bool within = true;
 	for (const EstimateReport& r : reports)
 	{
-		if (r.errors.ate_xyz_m > a.max_ate_m)
+		if (!(r.errors.ate_xyz_m <= a.max_ate_m) && a.max_ate_m < kNoLimit)
 		{
 			std::fprintf(stderr, "viwo-evaluate: %s: ATE %.4f m is over the limit of %g m\n", r.name.c_str(), r.errors.ate_xyz_m,
 			             a.max_ate_m);
@@ -121,7 +140,7 @@ int evaluateAll(Arguments& a)
 	{
 		std::vector<MatchedPose> matches;
 		reports.push_back(evaluateFile(a, reference, i, matches));
-		curves.push_back(plotCurve(names[i] + " (ATE " + fixed(reports.back().errors.ate_xyz_m, 3) + " m)", matches));
+		if (!matches.empty()) curves.push_back(plotCurve(names[i] + " (ATE " + fixed(reports.back().errors.ate_xyz_m, 3) + " m)", matches));
 	}
 
 	std::cout << toTable(reports, a.options) << std::flush;

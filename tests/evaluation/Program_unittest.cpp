@@ -81,6 +81,24 @@ TEST_F(EvaluateProgram, DrawsTheAlignedPaths)
 	EXPECT_NE(failed.err.find("/nowhere"), std::string::npos) << failed.err;
 }
 
+TEST_F(EvaluateProgram, MissingEstimateIsARowWithoutFigures)
+{
+	const std::vector<std::string> arguments{"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("none.tum"),
+	                                         "--json", folder_.file("e.json")};
+	EXPECT_EQ(run(arguments).status, 1) << "without the flag it is an error";
+	std::vector<std::string> allowed = arguments;
+	allowed.push_back("--allow-missing");
+	const ProgramResult result = run(allowed);
+	EXPECT_EQ(result.status, 0) << result.err;
+	EXPECT_NE(result.out.find("none.tum"), std::string::npos);
+	const Json json = loadJson(folder_.file("e.json"));
+	EXPECT_LT(json["estimates"][0]["ate_xyz_m"].get<double>(), 1e-7);
+	EXPECT_TRUE(json["estimates"][1]["ate_xyz_m"].is_null());
+	EXPECT_EQ(json["estimates"][1]["matched"], 0);
+	allowed.insert(allowed.end(), {"--max-ate", "10"});
+	EXPECT_EQ(run(allowed).status, 1) << "what is not there keeps no limit";
+}
+
 TEST_F(EvaluateProgram, Sim3TakesOutScale)
 {
 	run({"-r", folder_.file("ref.tum"), "-e", folder_.file("scaled.tum"), "--align", "sim3", "--json", folder_.file("e.json")});
