@@ -120,11 +120,15 @@ struct Estimator::Impl
 
 FrameEstimate Estimator::Impl::processFrame(const FeatureFrame& features)
 {
-	++counters.frames;
-	if (options.mode == Mode::wheel) return deadReckonOnWheels(features.t_ns);
-
 	FrameEstimate out;
 	out.t_ns = features.t_ns;
+	out.status = status.now();
+	if (last_frame_ns && features.t_ns <= *last_frame_ns) return out;
+	++counters.frames;
+	if (options.mode == Mode::wheel) return deadReckonOnWheels(features.t_ns);
+	// A hole in the IMU stream, and not yet one that ends the window: the next frame bridges it.
+	if (running && imu.latest_ns() < features.t_ns && secondsBetween(*last_frame_ns, features.t_ns) <= options.window.reinitialize_after_gap_s) return out;
+
 	out.features = static_cast<int>(features.features.size());
 	Interval interval;
 	{
@@ -228,6 +232,7 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 		return false;
 	}
 	const bool from_wheels = options.useWheels() && options.factors.wheels_in_initialization;
+	if (from_wheels) dropFramesBeforeWheels(window);
 	const double waited_s = secondsBetween(window.frames.front()->t_ns, t_ns);
 	if (from_wheels && waited_s >= options.window.start_after_s && startFromWheels(window, intervals, startPose(t_ns)))
 		status.set(Status::from_wheels, t_ns, "wheels, accelerometer and gyro give the first pose");

@@ -8,13 +8,53 @@
 #include <ceres/solver.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 namespace viwo
 {
 namespace
 {
-bool isLandmark(const LocalCost& cost, size_t block) { return cost.shapes()[block].ambient == 1; }
+bool isLandmark(const BlockShape& shape) { return shape.ambient == 1; }
+
+/** Ceres orders the blocks of a group by their addresses: copies in one array, in the order of the factors, make that order repeatable. */
+class StateCopies
+{
+   public:
+	explicit StateCopies(const std::vector<Factor>& factors)
+	{
+		size_t size = 0;
+		for (const Factor& factor : factors)
+			for (size_t i = 0; i < factor.blocks.size(); ++i)
+			{
+				const BlockShape& shape = factor.cost->shapes()[i];
+				if (!offsets_.emplace(factor.blocks[i], size).second) continue;
+				states_.push_back({factor.blocks[i], shape});
+				size += static_cast<size_t>(shape.ambient);
+			}
+		values_.reserve(size);
+		for (const State& s : states_) values_.insert(values_.end(), s.original, s.original + s.shape.ambient);
+	}
+
+	struct State
+	{
+		double* original;
+		BlockShape shape;
+	};
+	const std::vector<State>& states() const { return states_; }
+	double* copyOf(const double* original) { return values_.data() + offsets_.at(original); }
+	void writeBack()
+	{
+		for (const State& s : states_) std::copy_n(copyOf(s.original), s.shape.ambient, s.original);
+	}
+
+   private:
+	std::unordered_map<const double*, size_t> offsets_;	 // looked up only, never walked through
+	std::vector<State> states_;
+	std::vector<double> values_;
+};
 }  // namespace
 
 SolveReport solveWindow(Window& window, int max_iterations)
@@ -31,17 +71,18 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
 	options.linear_solver_ordering = ordering;
 
-	std::unordered_set<const double*> known;
+	StateCopies copies(factors);
+	for (const StateCopies::State& state : copies.states())
+	{
+		double* const copy = copies.copyOf(state.original);
+		problem.AddParameterBlock(copy, state.shape.ambient, state.shape.kind == BlockKind::pose ? &pose_manifold : nullptr);
+		ordering->AddElementToGroup(copy, isLandmark(state.shape) ? 0 : 1);
+	}
 	for (const Factor& factor : factors)
 	{
-		for (size_t i = 0; i < factor.blocks.size(); ++i)
-		{
-			if (!known.insert(factor.blocks[i]).second) continue;
-			const BlockShape& shape = factor.cost->shapes()[i];
-			problem.AddParameterBlock(factor.blocks[i], shape.ambient, shape.kind == BlockKind::pose ? &pose_manifold : nullptr);
-			ordering->AddElementToGroup(factor.blocks[i], isLandmark(*factor.cost, i) ? 0 : 1);
-		}
-		problem.AddResidualBlock(factor.cost.get(), factor.loss.get(), factor.blocks);
+		std::vector<double*> blocks;
+		for (const double* block : factor.blocks) blocks.push_back(copies.copyOf(block));
+		problem.AddResidualBlock(factor.cost.get(), factor.loss.get(), blocks);
 	}
 	options.linear_solver_type = ceres::DENSE_SCHUR;
 	options.num_threads = 1;
@@ -50,6 +91,7 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	options.logging_type = ceres::SILENT;
 	ceres::Solver::Summary summary;
 	ceres::Solve(options, &problem, &summary);
+	copies.writeBack();
 	return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};
 }
 

@@ -163,6 +163,19 @@ void thinOutWaitingFrames(Window& w)
 	w.frames.front()->interval = {};
 }
 
+void dropFramesBeforeWheels(Window& w)
+{
+	size_t first = w.frames.size() - 1;
+	while (first > 0 && w.frames[first]->interval.wheels) --first;
+	if (first + 1 == w.frames.size()) return;
+	for (; first > 0; --first)
+	{
+		w.landmarks.forget(*w.frames.front(), w.T_BC_pose());
+		w.frames.pop_front();
+	}
+	w.frames.front()->interval = {};
+}
+
 Fate advanceWindow(Window& w)
 {
 	if (w.frames.size() < 3) return Fate::kept_growing;

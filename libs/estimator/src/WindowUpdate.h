@@ -19,6 +19,9 @@ Fate advanceWindow(Window& window);
 /** Before the start: keeps the number of waiting frames that of a full window, and of frames without parallax the newest only. */
 void thinOutWaitingFrames(Window& window);
 
+/** Before a start from wheels: once they speak, the frames from before that are of no use to it. */
+void dropFramesBeforeWheels(Window& window);
+
 /** VINS-Mono's rule: mean parallax against the keyframe before it, rotation removed, or too few tracks in common. */
 bool isKeyframe(const Window& window, const Frame& frame, const Frame& previous);
 

@@ -94,7 +94,9 @@ class Estimator
 	bool addImu(const ImuSample& sample);
 	bool addWheels(const WheelSample& sample);
 
-	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. */
+	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. One that is not
+	 *  later than the last is ignored, and one to which a short hole in the IMU stream does not let the IMU reach is passed over: no pose.
+	 */
 	FrameEstimate addFrame(const FeatureFrame& frame);
 
 	/** R_Cprev_Ccur from the gyro between two stamps, less the estimated bias; identity where the IMU does not cover them. */
