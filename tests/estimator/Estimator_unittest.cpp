@@ -17,8 +17,8 @@ using test::measured;
 using test::optionsOf;
 using test::runDrive;
 
-const std::string kCorridor = "straight 1.5 m, rotate 180 deg, straight 1.5 m";
-const std::string kArc = "arc 1 m 300 deg";
+const std::string kCorridor = "straight 1 m, rotate 120 deg, straight 1 m";
+const std::string kArc = "arc 1 m 180 deg";
 
 TEST(Estimator, ExactReadingsGiveTheExactTrajectory)
 {
@@ -41,7 +41,7 @@ TEST(Estimator, CorridorAndArc)
 	for (const std::string& route : {kCorridor, kArc})
 	{
 		double worst_percent = 0;
-		for (int seed = 1; seed <= test::seedsOf(3); ++seed)
+		for (int seed = 1; seed <= test::seedsOf(2); ++seed)
 		{
 			const Drive drive(DriveSetup(route, seed));
 			const DriveResult result = runDrive(drive, optionsOf(Mode::viwo));
@@ -80,7 +80,7 @@ TEST(Estimator, VioOnALivelyMotionIsMetric)
 
 TEST(Estimator, BlackCameraIsDeadReckonedAndTakenUpAgain)
 {
-	Drive drive(DriveSetup("arc 1 m 150 deg"));
+	Drive drive(DriveSetup("arc 1 m 120 deg"));
 	const double clean_m = errorsOf(drive, runDrive(drive, optionsOf(Mode::viwo))).ate_xyz_m;
 	drive.blacken(7, 12);
 	const DriveResult result = runDrive(drive, optionsOf(Mode::viwo));
@@ -97,7 +97,7 @@ TEST(Estimator, BlackCameraIsDeadReckonedAndTakenUpAgain)
 
 TEST(Estimator, SilentWheels)
 {
-	DriveSetup setup("arc 1 m 150 deg");
+	DriveSetup setup("arc 1 m 120 deg");
 	const double clean_m = errorsOf(Drive(setup), runDrive(setup, optionsOf(Mode::viwo))).ate_xyz_m;
 	setup.wheels.silences = {7, 5};
 	const Drive drive(setup);
@@ -118,7 +118,7 @@ TEST(Estimator, HolesInTheImuStream)
 {
 	for (const double hole_s : {0.05, 0.5, 3.0})
 	{
-		Drive drive(DriveSetup("arc 1 m 150 deg"));
+		Drive drive(DriveSetup("arc 1 m 120 deg"));
 		drive.silence(drive.imu, 7.02, 7.02 + hole_s);
 		const DriveResult result = runDrive(drive, optionsOf(Mode::viwo));
 		const TrajectoryErrors errors = errorsOf(drive, result);
@@ -211,7 +211,7 @@ TEST(Estimator, FramesOutOfOrderAreIgnored)
 
 TEST(Estimator, EverySwitchRuns)
 {
-	const Drive drive(DriveSetup("straight 0.8 m, rotate 40 deg"));
+	const Drive drive(DriveSetup("straight 0.6 m, rotate 20 deg"));
 	using Switch = std::pair<std::string, std::function<void(FactorOptions&)>>;
 	const std::vector<Switch> switches{{"wheel_factor off", [](FactorOptions& f) { f.wheel_factor = false; }},
 	                                   {"plane_factor off", [](FactorOptions& f) { f.plane_factor = false; }},
@@ -228,7 +228,7 @@ TEST(Estimator, EverySwitchRuns)
 		const DriveResult result = runDrive(drive, options);
 		EXPECT_TRUE(result.finite()) << name;
 		EXPECT_EQ(result.counters.reinitializations, 0) << name;
-		ASSERT_GT(result.trajectory.size(), 20u) << name;
+		ASSERT_GT(result.trajectory.size(), 10u) << name;
 		const TrajectoryErrors errors = errorsOf(drive, result);
 		measured("ATE, " + name, 1e3 * errors.ate_xyz_m,
 		         "mm of " + std::to_string(errors.length_m) + " m; first pose " + std::to_string(result.first_pose_s) + " s");
@@ -239,7 +239,7 @@ TEST(Estimator, EverySwitchRuns)
 /** A floor with waves of some metres: the robot drives over slopes of several degrees. */
 TEST(Estimator, SlopesDoNotLiftTheEstimate)
 {
-	DriveSetup setup("straight 4 m");
+	DriveSetup setup("straight 3 m");
 	setup.route.speed_m_s = 0.3;
 	setup.floor.height_rms_mm = 40;
 	setup.floor.wavelength_min_m = 3.5;

@@ -30,6 +30,8 @@ constexpr double kMaxAccBias_m_s2 = 3;
 constexpr double kMaxGyroBias_rad_s = 0.5;
 /** The first solve starts far from the optimum. */
 constexpr int kStartIterations = 30;
+/** Of the covariance of the wheels while the robot stands: they have no noise then, and what they say of the heading must outlast minutes. */
+constexpr double kStandstillTrust = 1e-3;
 /** Vision is tried at this spacing: a reconstruction that fails is not cheap. */
 constexpr double kVisionStartPeriod_s = 0.3;
 
@@ -72,6 +74,7 @@ struct Estimator::Impl
 	Window window;
 	IntervalFactory intervals;
 	SlipGate slip_gate;
+	StandstillGate standstill_gate;
 	WheelOdometry wheel_odometry;
 	StatusLog status;
 	EstimatorCounters counters;
@@ -84,6 +87,7 @@ struct Estimator::Impl
 	std::optional<NavState> last_state;	 //!< of the last frame with a pose
 	Pose3 T_WO_last;  //!< O when it was last known; a new start continues there
 	int64_t t_last_known_ns = 0;
+	double velocity_sigma_m_s = 0;	 //!< of that state, along its worst axis
 	bool ever_started = false;
 
 	Impl(const EstimatorOptions& o, const Calibration& c)
@@ -242,6 +246,7 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 		return false;
 	running = ever_started = true;
 	slip_gate.reset();
+	standstill_gate.reset();
 	window.landmarks.triangulate(window.T_BC_pose());
 	const SolveReport solved = solveWindow(window, kStartIterations);
 	if (!solved.usable || !plausible(window.latest().state()))
@@ -259,9 +264,13 @@ void Estimator::Impl::track(FrameEstimate& out)
 	Frame& latest = window.latest();
 	const Frame& before = *window.frames[window.frames.size() - 2];
 	const NavState previous = before.state();
-	out.slip = slip_gate.judge(previous, latest.interval, window.wheelIntrinsics());
+	const auto slipping_s = slip_gate.judge(previous, velocity_sigma_m_s, latest.interval, window.wheelIntrinsics());
+	out.slip = slipping_s.has_value();
+	if (out.slip) distrustWheels(window, *slipping_s);
 	const bool was_standing = before.standing;
-	latest.standing = standsStill(latest.interval, previous.b_g, before.features, latest.features, window.landmarks.settings().sigma_rad);
+	if (out.slip) standstill_gate.reset();
+	latest.standing = standstill_gate.judge(latest.interval, previous.b_g, before.features, latest.features, window.landmarks.settings().sigma_rad);
+	if (latest.standing) latest.interval.wheels->scaleCovariance(kStandstillTrust);
 	out.standing = latest.standing;
 	if (latest.standing && !was_standing) ++counters.standstills;
 	{
@@ -303,6 +312,7 @@ void Estimator::Impl::report(FrameEstimate& out)
 		J.topRightCorner<3, 3>() = -out.state.T_WB.R.toRotationMatrix() * so3::skew(T_BO.p);
 		J.bottomRightCorner<3, 3>() = T_BO.R.toRotationMatrix().transpose();
 		out.covariance = J * covariance_B.topLeftCorner<6, 6>() * J.transpose();
+		velocity_sigma_m_s = std::sqrt(covariance_B.diagonal().segment<3>(StateOrder::v).maxCoeff());
 	}
 	last_state = out.state;
 	T_WO_last = out.T_WO;
@@ -321,6 +331,7 @@ void Estimator::Impl::restart(int64_t t_ns, const std::string& cause)
 	window.clear();
 	intervals.relinearizeAt(window, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
 	slip_gate.reset();
+	standstill_gate.reset();
 }
 
 Pose3 Estimator::Impl::startPose(int64_t t_ns) const

@@ -21,8 +21,8 @@ namespace viwo
 namespace
 {
 constexpr double kDegree = M_PI / 180;
-/** Where the plane factor gives way, in sigma: a ramp or a bump is not to bend the window. */
-constexpr double kPlaneGate = 3;
+/** Where the plane and standstill factors give way, in sigma: a ramp or a bump, or a push, is not to bend the window. */
+constexpr double kFloorGate = 3;
 
 LandmarkMap::Settings landmarkSettings(const EstimatorOptions& o, const CameraModel& camera)
 {
@@ -63,7 +63,7 @@ void addWheels(Window& w, std::vector<Factor>& factors)
 
 void addFloor(Window& w, std::vector<Factor>& factors)
 {
-	static const auto loss = std::make_shared<ceres::CauchyLoss>(kPlaneGate);
+	static const auto loss = std::make_shared<ceres::CauchyLoss>(kFloorGate);
 	const double sigma_tilt_rad = w.options.priors.plane_factor_tilt_deg * kDegree;
 	const double sigma_height_m = w.options.priors.plane_factor_height_m;
 	const bool pairwise = w.options.factors.plane_pairwise;
@@ -73,7 +73,7 @@ void addFloor(Window& w, std::vector<Factor>& factors)
 		{
 			if (!frame->standstill_factor)
 				frame->standstill_factor = std::make_shared<StandstillResidual>(w.options.priors.standstill_velocity_m_s);
-			factors.push_back({frame->standstill_factor, nullptr, {frame->motion.data()}});
+			factors.push_back({frame->standstill_factor, loss, {frame->motion.data()}});
 		}
 		if (!w.options.usePlaneFactor() || (pairwise && frame == w.frames.front())) continue;
 		if (!frame->plane_factor && pairwise)

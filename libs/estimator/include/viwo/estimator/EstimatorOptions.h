@@ -127,7 +127,7 @@ struct WindowOptions : Options<WindowOptions>
 	double huber_px = 1.5;
 	double outlier_px = 4;
 	double slip_gate_sigma = 5;
-	double slip_gate_window_s = 0.5;
+	double slip_gate_window_s = 1;
 	double start_after_s = 0.75;
 	double max_imu_gap_s = 0.1;
 	double max_wheel_gap_s = 0.3;
@@ -147,7 +147,7 @@ struct WindowOptions : Options<WindowOptions>
 		v("huber_px", huber_px, "reprojection error where the Huber loss turns linear", 0.1, 100.0);
 		v("outlier_px", outlier_px, "mean reprojection error above which a landmark is thrown out", 0.5, 100.0);
 		v("slip_gate_sigma", slip_gate_sigma, "wheel against gyro and prediction", 2.0, 100.0);
-		v("slip_gate_window_s", slip_gate_window_s, "time over which they are compared", 0.05, 10.0);
+		v("slip_gate_window_s", slip_gate_window_s, "longest time over which they are compared", 0.05, 10.0);
 		v("start_after_s", start_after_s, "data gathered before the first pose when starting from wheels", 0.1, 10.0);
 		v("max_imu_gap_s", max_imu_gap_s, "longest hole in the IMU stream that is interpolated", 0.001, 10.0);
 		v("max_wheel_gap_s", max_wheel_gap_s, "longest hole in the wheel stream that is bridged", 0.001, 10.0);
