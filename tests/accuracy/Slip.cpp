@@ -56,7 +56,7 @@ std::vector<std::string> Slip::bars() const
 	std::vector<std::string> names;
 	for (const Case& c : cases())
 		for (const char* what : {": ATE over 1.3 times its own without + 2 cm", ": slip events with slip", ": slip events without"})
-			names.push_back("slip, " + c.name + what);
+			names.push_back("slip (" + c.name + ")" + what);
 	return names;
 }
 

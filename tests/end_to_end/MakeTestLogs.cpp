@@ -1,0 +1,29 @@
+#include <viwo/app/Program.h>
+
+#include <cstdio>
+
+#include "SimulationCache.h"
+#include "TestLogs.h"
+
+using namespace viwo;
+
+namespace
+{
+int makeTestLogs()
+{
+	const accuracy::SimulationCache cache(testing::testLogFolder(), VIWO_BINARY_DIR "/bin");
+	accuracy::JobPool pool;
+	std::vector<size_t> jobs;
+	for (const accuracy::LogRecipe& recipe : testing::testLogRecipes()) jobs.push_back(pool.add(cache.job(recipe)));
+	pool.run(2);
+	for (const size_t job : jobs)
+		if (!pool.error(job).empty()) throw Error(pool.error(job));
+	return 0;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+	CLI::App cli("Simulates the logs of the end-to-end tests, unless they are there.", "viwo_test_logs");
+	return app::run(cli, argc, argv, makeTestLogs);
+}

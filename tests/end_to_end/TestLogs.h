@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "Scenario.h"
+
+/** The simulated logs of the end-to-end tests: one seed each, as short as they may be. */
+namespace viwo::testing
+{
+/** 24 s: straight on, two turns on the spot, straight on. */
+accuracy::SimulatedDrive corridorTestDrive();
+/** 20 s of a constant arc, in motion from the first sample on. */
+accuracy::SimulatedDrive lobbyTestDrive();
+
+/** Recipes of all. */
+std::vector<accuracy::LogRecipe> testLogRecipes();
+
+/** Folder in which they are kept. */
+std::string testLogFolder();
+
+struct TestLog
+{
+	std::string rawlog, ground_truth;
+};
+/** @throws Error when it has not been made: viwo_test_logs does. */
+TestLog testLog(const accuracy::SimulatedDrive& drive);
+}  // namespace viwo::testing

@@ -1,0 +1,41 @@
+#include "GapLog.h"
+
+#include <gtest/gtest.h>
+#include <viwo/core/Time.h>
+
+namespace viwo
+{
+namespace
+{
+TEST(GapLog, TellsWhatIsLongerThanIsBridged)
+{
+	OdometryOptions options;
+	GapLog log(options);
+	const double imu_limit_s = options.estimator.window.max_imu_gap_s;
+	const auto at = [](double t_s) { return nanoseconds(100 + t_s); };
+	EXPECT_FALSE(log.add("IMU", at(0)));
+	EXPECT_FALSE(log.add("IMU", at(0.9 * imu_limit_s)));
+	EXPECT_FALSE(log.add("ODOMETRY", at(5))) << "the first of a sensor ends no gap";
+	const auto gap = log.add("IMU", at(5));
+	ASSERT_TRUE(gap);
+	EXPECT_EQ(gap->label, "IMU");
+	EXPECT_EQ(gap->begin_ns, at(0.9 * imu_limit_s));
+	EXPECT_NEAR(gap->duration_s, 5 - 0.9 * imu_limit_s, 1e-9);
+	EXPECT_EQ(log.gaps().size(), 1u);
+}
+
+TEST(GapLog, SensorsThatTheModeDoesNotUseDoNotCount)
+{
+	OdometryOptions options;
+	options.estimator.mode = Mode::wheel;
+	GapLog log(options);
+	for (const char* label : {"CAM", "IMU", "LMS100"})
+	{
+		EXPECT_FALSE(log.add(label, 0));
+		EXPECT_FALSE(log.add(label, nanoseconds(100))) << label;
+	}
+	EXPECT_FALSE(log.add("ODOMETRY", 0));
+	EXPECT_TRUE(log.add("ODOMETRY", nanoseconds(100)));
+}
+}  // namespace
+}  // namespace viwo

@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+#include <viwo/odometry/Odometry.h>
+#include <viwo/rawlog/MrptTime.h>
+
+#include <iostream>
+
+#include "DrivenLog.h"
+
+namespace viwo
+{
+namespace
+{
+using viwo::testing::DrivenLog;
+using viwo::testing::largestDistance_m;
+
+OdometryOptions optionsOf(Mode mode)
+{
+	OdometryOptions options;
+	options.estimator.mode = mode;
+	return options;
+}
+
+/** Feeds all observations; quiet. */
+void feed(Odometry& odometry, const std::vector<mrpt::obs::CObservation::Ptr>& observations)
+{
+	odometry.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+	for (const auto& observation : observations) odometry.processObservation(observation);
+	odometry.finish();
+}
+
+bool sameTrajectory(const Trajectory& a, const Trajectory& b)
+{
+	if (a.size() != b.size()) return false;
+	for (size_t i = 0; i < a.size(); ++i)
+		if (a.poses()[i].t_ns != b.poses()[i].t_ns || a.poses()[i].T.p != b.poses()[i].T.p ||
+		    !a.poses()[i].T.R.coeffs().isApprox(b.poses()[i].T.R.coeffs(), 0))
+			return false;
+	return true;
+}
+
+class OdometryModes : public ::testing::TestWithParam<Mode>
+{
+};
+
+TEST_P(OdometryModes, FollowsADriveWithoutACamera)
+{
+	const DrivenLog log;
+	Odometry odometry(optionsOf(GetParam()));
+	size_t callbacks = 0, imu_rate = 0;
+	odometry.onFrame([&](const FrameEstimate& e) { callbacks += e.has_pose; });
+	odometry.onImuRate([&](const NavState&) { ++imu_rate; });
+	feed(odometry, log.observations());
+	ASSERT_TRUE(odometry.latest().has_pose);
+	const double error_m = largestDistance_m(odometry.trajectory(), log.truth);
+	std::cout << "[measured] mode " << modeNames()[static_cast<size_t>(GetParam())] << ": " << 100 * error_m << " cm after "
+	          << log.truth.length_m() << " m\n";
+	EXPECT_LT(error_m, 0.08);
+	EXPECT_EQ(callbacks, odometry.trajectory().size());
+	EXPECT_GT(odometry.trajectory().size(), 140u) << "10 poses a second";
+	EXPECT_TRUE(odometry.landmarks().empty());
+	EXPECT_EQ(odometry.observationCounts().count("CAM"), 0u);
+	if (GetParam() == Mode::wio)
+	{
+		EXPECT_GT(imu_rate, 10 * odometry.trajectory().size());
+	}
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OdometryModes, ::testing::Values(Mode::wheel, Mode::wio),
+                         [](const auto& info) { return modeNames()[static_cast<size_t>(info.param)]; });
+
+TEST(Odometry, NothingBeforeTheFirstObservations)
+{
+	Odometry odometry;
+	EXPECT_FALSE(odometry.latest().has_pose);
+	EXPECT_EQ(odometry.status(), Status::waiting);
+	EXPECT_EQ(odometry.calibration(), nullptr);
+	EXPECT_TRUE(odometry.trajectory().empty());
+	odometry.finish();
+	EXPECT_FALSE(odometry.latest().has_pose);
+}
+
+TEST(Odometry, OtherLabelsAreIgnored)
+{
+	const DrivenLog log("straight 0.3 m");
+	auto observations = log.observations();
+	Odometry plain(optionsOf(Mode::wio)), disturbed(optionsOf(Mode::wio));
+	feed(plain, observations);
+	for (size_t i = 0; i < observations.size(); i += 7)
+	{
+		const auto stranger = std::dynamic_pointer_cast<mrpt::obs::CObservation>(observations[i]->duplicateGetSmartPtr());
+		stranger->sensorLabel = "STRANGER";
+		observations.insert(observations.begin() + static_cast<std::ptrdiff_t>(i), stranger);
+	}
+	feed(disturbed, observations);
+	EXPECT_TRUE(sameTrajectory(plain.trajectory(), disturbed.trajectory()));
+}
+
+TEST(Odometry, SameObservationsSamePoses)
+{
+	const DrivenLog log("straight 0.5 m, rotate 20 deg");
+	Odometry a(optionsOf(Mode::wio)), b(optionsOf(Mode::wio));
+	feed(a, log.observations());
+	feed(b, log.observations());
+	EXPECT_FALSE(a.trajectory().empty());
+	EXPECT_TRUE(sameTrajectory(a.trajectory(), b.trajectory()));
+}
+
+TEST(Odometry, CalibrationCanBeGiven)
+{
+	const DrivenLog log("straight 0.5 m");
+	Calibration given;
+	given.T_OB = Pose3(forwardOpticalAxes(), Eigen::Vector3d(0.1, 0.02, 0.3));
+	given.wheels.track_m = 0.23;
+	Odometry from_log(optionsOf(Mode::wio)), from_caller(optionsOf(Mode::wio), given);
+	feed(from_log, log.observations());
+	feed(from_caller, log.observations());
+	ASSERT_NE(from_log.calibration(), nullptr);
+	EXPECT_LT((from_log.calibration()->T_OB.p - given.T_OB.p).norm(), 1e-9);
+	ASSERT_EQ(from_log.trajectory().size(), from_caller.trajectory().size());
+	for (size_t i = 0; i < from_log.trajectory().size(); ++i)
+		EXPECT_LT((from_log.trajectory().poses()[i].T.p - from_caller.trajectory().poses()[i].T.p).norm(), 1e-6);
+}
+
+TEST(Odometry, StatusChangesHaveTheirCause)
+{
+	const DrivenLog log("straight 0.5 m");
+	Odometry odometry(optionsOf(Mode::wio));
+	feed(odometry, log.observations());
+	ASSERT_FALSE(odometry.statusChanges().empty());
+	for (const StatusChange& change : odometry.statusChanges())
+	{
+		EXPECT_NE(change.from, change.to);
+		EXPECT_FALSE(change.cause.empty());
+		EXPECT_GE(change.t_ns, odometry.firstFrame_ns());
+	}
+	EXPECT_EQ(odometry.statusChanges().back().to, odometry.status());
+}
+}  // namespace
+}  // namespace viwo
