@@ -72,7 +72,8 @@ TEST_F(BadInput, TruncatedRawlog)
 	expectKept(10);
 	const size_t poses = trajectory("out").size();
 	odometry(path, "allowed", {"--allow-truncated", "--quiet"});
-	EXPECT_EQ(trajectory("allowed").size(), poses);
+	EXPECT_GE(trajectory("allowed").size(), poses);
+	EXPECT_LE(trajectory("allowed").size(), poses + 3) << "the images that waited for samples when the file ended";
 }
 
 TEST_F(BadInput, UnknownClassInside)

@@ -34,10 +34,10 @@ class Look
 {
    public:
 	explicit Look(const OdometryRunOptions& options)
-		: options_(options),
-		  camera_{SensorKind::camera, options.odometry.estimator.useCamera()},
-		  imu_{SensorKind::imu, options.odometry.estimator.useImu()},
-		  odometry_{SensorKind::odometry, options.odometry.estimator.useWheels()}
+	    : options_(options),
+	      camera_{SensorKind::camera, options.odometry.estimator.useCamera()},
+	      imu_{SensorKind::imu, options.odometry.estimator.useImu()},
+	      odometry_{SensorKind::odometry, options.odometry.estimator.useWheels()}
 	{
 	}
 
@@ -49,6 +49,7 @@ class Look
 		reader_options.skip_missing_images = true;
 		RawlogReader reader(options_.rawlog, reader_options);
 		const bool reached_end = !scan(reader);
+		if (reached_end && camera_.missing()) requireImageFiles(reader.counts());
 		for (const Sensor* s : {&camera_, &imu_, &odometry_})
 			if (reached_end && s->missing()) throw missingSensorError(options_.rawlog, s->kind, labels(), reader.counts());
 		requireFastImu();
@@ -82,7 +83,20 @@ class Look
 		const std::string& label = observation->sensorLabel;
 		if (label == labels().cam_label && std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(observation)) camera_.add(t_ns);
 		if (label == labels().imu_label && std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation)) imu_.add(t_ns);
-		if (label == labels().odometry_label && std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) odometry_.add(t_ns);
+		if (label == labels().odometry_label && std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation))
+			odometry_.add(t_ns);
+	}
+
+	/** Where there are images but none of their files, the reader's own message says where it looked. */
+	void requireImageFiles(const RawlogCounts& counts) const
+	{
+		const auto sensor = counts.sensors.find({labels().cam_label, "CObservationImage"});
+		if (sensor == counts.sensors.end() || sensor->second.missing_images == 0) return;
+		RawlogReaderOptions reader_options;
+		reader_options.labels = {labels().cam_label};
+		RawlogReader reader(options_.rawlog, reader_options);
+		while (reader.next())
+			;
 	}
 
 	void requireFastImu() const
@@ -91,7 +105,7 @@ class Look
 		char rates[96];
 		std::snprintf(rates, sizeof rates, "the IMU has %.1f Hz, the camera %.1f Hz", imu_.rate_hz(), camera_.rate_hz());
 		throw Error(options_.rawlog + ": " + rates + " (labels " + labels().imu_label + ", " + labels().cam_label +
-					"): an IMU must be faster than the camera; record it at 100 Hz or more, or run --mode wheel");
+		            "): an IMU must be faster than the camera; record it at 100 Hz or more, or run --mode wheel");
 	}
 
 	const OdometryRunOptions& options_;
@@ -99,5 +113,8 @@ class Look
 };
 }  // namespace
 
-void checkInput(const OdometryRunOptions& options) { Look(options).look(); }
+void checkInput(const OdometryRunOptions& options)
+{
+	Look(options).look();
+}
 }  // namespace viwo
