@@ -136,7 +136,7 @@ TEST_F(Outputs, RealtimeReplayKeepsTheClockOfTheLog)
 	odometry(log_.rawlog, "fast", {"--mode", "wheel", "--to", "2", "--quiet"});
 	EXPECT_GE(summary("slow").at("wall_time_s").get<double>(), 1.9);
 	EXPECT_LT(summary("fast").at("wall_time_s").get<double>(), 1.5);
-	expectSameFiles("slow", "fast");
+	EXPECT_TRUE(readFile(output("slow", "trajectory.tum")) == readFile(output("fast", "trajectory.tum")));
 }
 
 TEST_F(Outputs, ModeWithoutImuGivesNoImuRate)
