@@ -16,6 +16,7 @@ struct Arguments
 	std::string output;
 	uint64_t seed = 1;
 	bool no_images = false;
+	std::string images_from;
 	int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 	std::vector<std::string> overrides;
 };
@@ -29,6 +30,8 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("-o,--output", a.output, "X.rawlog; X_Images/, X_ground_truth.tum and X_simulation.ini are written beside it")
 	    ->required();
 	cli.add_flag("--no-images", a.no_images, "Without the camera (seconds instead of minutes)");
+	cli.add_option("--images-from", a.images_from, "Take over the images of a run that differs in wheels, IMU or LiDAR alone: its X_Images")
+	    ->check(CLI::ExistingDirectory);
 	cli.add_option("--set", a.overrides, "section.key=value: overrule an option of rig or route; may be given several times")->take_all();
 	cli.add_option("-j,--jobs", a.jobs, "Threads that render; the files do not depend on it")
 	    ->check(CLI::Range(1, 256))
@@ -63,6 +66,7 @@ int simulate(const Arguments& a)
 	app::ProgressBar bar;
 	sim::SimulationRunOptions options;
 	options.images = !a.no_images;
+	options.images_from = a.images_from;
 	options.threads = a.jobs;
 	options.progress = [&](double fraction)
 	{

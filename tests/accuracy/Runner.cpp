@@ -60,12 +60,19 @@ Runner::Runner(std::string folder, std::string programs)
 {
 }
 
+size_t Runner::logJob(const LogRecipe& recipe)
+{
+	const std::string path = cache_.rawlog(recipe);
+	if (const auto known = logs_.find(path); known != logs_.end()) return known->second;
+	Job job = cache_.job(recipe);
+	if (recipe.same_images) job.after = {logJob(*recipe.same_images)};
+	return logs_[path] = pool_.add(std::move(job));
+}
+
 void Runner::want(const RunRecipe& recipe)
 {
 	if (runs_.count(recipe.name()) != 0) return;
-	const auto [log, is_new] = logs_.try_emplace(cache_.rawlog(recipe.log), 0);
-	if (is_new) log->second = pool_.add(cache_.job(recipe.log));
-	runs_[recipe.name()] = pool_.add(runJob(recipe, log->second));
+	runs_[recipe.name()] = pool_.add(runJob(recipe, logJob(recipe.log)));
 }
 
 Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const

@@ -47,6 +47,8 @@ class Runner
 	Outcome outcome(const RunRecipe& recipe) const;
 
    private:
+	/** Index of the job that makes the log; added on the first call. */
+	size_t logJob(const LogRecipe& recipe);
 	Job runJob(const RunRecipe& recipe, size_t log_job) const;
 	std::string folderOf(const RunRecipe& recipe) const { return folder_ + "/runs/" + recipe.name(); }
 

@@ -2,6 +2,7 @@
 
 #include <viwo/app/Program.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -24,6 +25,9 @@ SimulatedDrive SimulatedDrive::with(const std::string& what, const std::vector<s
 {
 	SimulatedDrive drive = *this;
 	drive.name += "-" + what;
+	const auto blind = [](const std::string& word) { return word.rfind("wheels.", 0) == 0 || word.rfind("imu.", 0) == 0; };
+	const bool same = std::all_of(more.begin(), more.end(), blind);
+	drive.same_images = !same ? nullptr : same_images ? same_images : std::make_shared<const SimulatedDrive>(*this);
 	drive.overrides.insert(drive.overrides.end(), more.begin(), more.end());
 	return drive;
 }
@@ -54,6 +58,7 @@ LogRecipe SimulatedDrive::log(uint64_t seed) const
 		recipe.arguments.insert(recipe.arguments.end(), {"--set", word});
 		recipe.content += word + "\n";
 	}
+	if (same_images) recipe.same_images = std::make_shared<const LogRecipe>(same_images->log(seed));
 	for (const std::string& path : {worldPath(), routePath(), rigPath()}) recipe.content += "----\n" + contentOf(path);
 	return recipe;
 }

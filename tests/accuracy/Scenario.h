@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,8 @@ struct LogRecipe
 	std::vector<std::string> arguments;  //!< all but -o
 	std::string content;                 //!< of all inputs: logs of the same content are the same log
 	bool cached = true;                  //!< false: made anew every time
+	/** A log that has the same images; they are taken from there. */
+	std::shared_ptr<const LogRecipe> same_images;
 };
 
 /** A drive that is simulated. */
@@ -25,7 +28,9 @@ struct SimulatedDrive
 	std::string route;
 	std::vector<std::string> overrides;  //!< section.key=value of route and rig
 	std::string rig = "turtlebot2";
+	std::shared_ptr<const SimulatedDrive> same_images = nullptr;  //!< a drive with the same images, of which this one takes them over
 
+	/** @param what added to the name. */
 	SimulatedDrive with(const std::string& what, const std::vector<std::string>& more) const;
 	LogRecipe log(uint64_t seed) const;
 	std::string worldPath() const;

@@ -61,6 +61,7 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 	};
 	job.command = {programs_ + "/" + recipe.program};
 	job.command.insert(job.command.end(), recipe.arguments.begin(), recipe.arguments.end());
+	if (recipe.same_images) job.command.insert(job.command.end(), {"--images-from", folderOf(*recipe.same_images) + "/log_Images"});
 	job.command.insert(job.command.end(), {"-o", making + "/log.rawlog"});
 	job.log_stem = making + "/program";
 	job.succeeded = [recipe, folder, making]

@@ -16,7 +16,7 @@ class SimulationCache
 	/** @param programs folder of viwo-sim and viwo-import. */
 	SimulationCache(std::string folder, std::string programs);
 
-	/** The job that makes the log, or does nothing where it is there. */
+	/** The job that makes the log, or does nothing where it is there. One with the images of another log must come after that. */
 	Job job(const LogRecipe& recipe) const;
 
 	std::string rawlog(const LogRecipe& recipe) const { return folderOf(recipe) + "/log.rawlog"; }

@@ -46,6 +46,36 @@ TEST_F(ViwoSimProgram, ShippedFilesServeByName)
 	EXPECT_TRUE(viwo::testing::readFile(output) == viwo::testing::readFile(again)) << "the written options make the same log";
 }
 
+TEST_F(ViwoSimProgram, ImagesOfARunThatDiffersInItsWheelsAlone)
+{
+	const std::vector<std::string> common{"--world", "lobby", "--route", "sample", "--set", "route.duration_s=0.5"};
+	const auto simulate = [&](const std::string& name, std::vector<std::string> more)
+	{
+		more.insert(more.begin(), common.begin(), common.end());
+		more.insert(more.end(), {"-o", folder_.file(name)});
+		const auto result = viwo::testing::runProgram(kProgram, more);
+		ASSERT_EQ(result.status, 0) << result.err;
+	};
+	const std::string taken = "--images-from", from = folder_.file("a_Images"), set = "--set", slip = "wheels.radius_error=0.02";
+	simulate("a.rawlog", {});
+	simulate("taken.rawlog", {taken, from, set, slip});
+	simulate("rendered.rawlog", {set, slip});
+	size_t images = 0;
+	for (const auto& entry : std::filesystem::directory_iterator(folder_.file("rendered_Images")))
+	{
+		const std::string name = entry.path().filename().string();
+		EXPECT_TRUE(viwo::testing::readFile(entry.path().string()) == viwo::testing::readFile(folder_.file("taken_Images/" + name))) << name;
+		++images;
+	}
+	EXPECT_EQ(images, 5u);
+	EXPECT_TRUE(viwo::testing::readFile(folder_.file("taken.rawlog")) == viwo::testing::readFile(folder_.file("rendered.rawlog")));
+	std::filesystem::remove_all(folder_.file("a_Images"));
+	std::filesystem::create_directory(folder_.file("a_Images"));
+	const auto none = viwo::testing::runProgram(kProgram, {"--route", "sample", taken, from, "-o", folder_.file("b.rawlog")});
+	EXPECT_EQ(none.status, 1);
+	EXPECT_EQ(none.errorLines(), 1u) << none.err;
+}
+
 TEST_F(ViwoSimProgram, MistakesAreOneLineAndAnExitStatus)
 {
 	const std::string output = folder_.file("x.rawlog");

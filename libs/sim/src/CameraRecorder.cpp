@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <thread>
@@ -139,5 +140,22 @@ int64_t CameraRecorder::record(const std::string& folder, int threads, const std
 		if (error) std::rethrow_exception(error);
 	// Whoever took a number has finished it.
 	return std::min(queue.next.load(), count());
+}
+
+int64_t CameraRecorder::take(const std::string& folder, const std::string& images_from) const
+{
+	namespace fs = std::filesystem;
+	for (int64_t i = 0; i < count(); ++i)
+	{
+		const std::string from = images_from + "/" + fileName(i), to = folder + "/" + fileName(i);
+		std::error_code error;
+		fs::remove(to, error);
+		fs::create_hard_link(from, to, error);
+		if (error) fs::copy_file(from, to, error);
+		if (error)
+			throw Error(from + ": this image cannot be taken over (" + error.message() +
+			            "); it must be of a run with the same route and camera");
+	}
+	return count();
 }
 }  // namespace viwo::sim

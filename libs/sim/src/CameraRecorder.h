@@ -28,6 +28,11 @@ class CameraRecorder
 	 */
 	int64_t record(const std::string& folder, int threads, const std::function<bool(double)>& progress) const;
 
+	/** Takes the image files of another run instead: of the same world, route, camera, floor, vibration and seed, or they will not fit.
+	 *  @return how many: all. @throws Error for one that is missing or cannot be copied.
+	 */
+	int64_t take(const std::string& folder, const std::string& images_from) const;
+
    private:
 	class Eye;
 	struct Queue

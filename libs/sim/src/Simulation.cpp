@@ -76,6 +76,11 @@ class Simulation::Recorder
 
 	void renderImages()
 	{
+		if (!options_.images_from.empty())
+		{
+			result_.images = camera_.take(writer_.imagesFolder(), options_.images_from);
+			return;
+		}
 		const auto report = [this](double part) { return !options_.progress || options_.progress(kRenderingShare * part); };
 		result_.images = camera_.record(writer_.imagesFolder(), options_.threads, report);
 		result_.interrupted = result_.images < camera_.count();
