@@ -5,7 +5,7 @@
 #include <ImuPreintegration.h>
 #include <IntervalFactory.h>
 #include <NumericJacobian.h>
-#include <SimulatedDrive.h>
+#include <SlidingRun.h>
 #include <WheelPreintegration.h>
 #include <WheelStart.h>
 #include <WindowSolver.h>
@@ -14,6 +14,7 @@
 #include <residuals/StatePrior.h>
 
 #include <map>
+#include <set>
 
 namespace viwo
 {
@@ -23,91 +24,28 @@ using test::Drive;
 using test::DriveSetup;
 using test::measured;
 using test::optionsOf;
+using test::SlidingRun;
 
-/** A window that slides along a drive: states come in near the truth, nothing else of the estimator takes part. */
-class SlidingRun
+/** No factor, sighting or prior speaks of a state that is not in the window. */
+void expectNothingDangles(Window& window)
 {
-   public:
-	SlidingRun(const DriveSetup& setup, const EstimatorOptions& options)
-	    : drive(setup), window(options, drive.calibration), factory(options, drive.calibration.wheels)
+	std::set<const double*> known{window.T_BC.data(), window.wheels.data(), window.plane().data()};
+	std::set<const Frame*> frames;
+	for (const auto& f : window.frames)
 	{
-		for (const ImuSample& s : drive.imu) imu_.add(s);
-		for (const WheelSample& s : drive.wheels) wheels_.add(s);
+		known.insert(f->pose.data());
+		known.insert(f->motion.data());
+		frames.insert(f.get());
 	}
-
-	NavState truthAt(int64_t t_ns) const
+	for (const auto& [id, l] : window.landmarks.all())
 	{
-		const auto m = drive.motion.at_ns(t_ns);
-		const Pose3& T_OB = drive.calibration.T_OB;
-		NavState s;
-		s.t_ns = t_ns;
-		s.T_WB = m.T_WO * T_OB;
-		s.v_WB = m.v_WO + m.T_WO.R * m.w_O.cross(T_OB.p);
-		return s;
+		known.insert(&l.inverse_depth_1_m);
+		for (const Sighting& s : l.sightings) EXPECT_EQ(frames.count(s.frame), 1u);
 	}
-
-	/** @param state_noise of the new frame's state. */
-	Frame& push(const FeatureFrame& features, double state_noise = 0)
-	{
-		auto frame = std::make_unique<Frame>();
-		frame->id = next_id_++;
-		frame->t_ns = features.t_ns;
-		NavState state = truthAt(features.t_ns);
-		state.T_WB.p += random_.vector3(state_noise);
-		state.T_WB.R = state.T_WB.R * so3::expQuaternion(random_.vector3(state_noise));
-		state.v_WB += random_.vector3(state_noise);
-		frame->setState(state);
-		if (window.options.useCamera()) frame->features = features;
-		if (!window.frames.empty()) frame->interval = factory.between(imu_, wheels_, window.latest().t_ns, features.t_ns);
-		window.frames.push_back(std::move(frame));
-		if (window.options.useCamera()) window.landmarks.add(window.latest());
-		return window.latest();
-	}
-
-	/** The steps of the estimator for one frame. @param solves to go on where the solver's tolerance ended it. */
-	Fate step(const FeatureFrame& features, double state_noise = 0, int solves = 1)
-	{
-		push(features, state_noise);
-		if (window.frames.size() == 1) addStartPriors(window, window.latest(), 0.1, 0.01);
-		window.landmarks.triangulate(window.T_BC_pose());
-		for (int i = 0; i < solves; ++i) solveWindow(window, 20);
-		window.landmarks.assess(window.T_BC_pose());
-		return advanceWindow(window);
-	}
-
-	Interval between(int64_t begin_ns, int64_t end_ns) { return factory.between(imu_, wheels_, begin_ns, end_ns); }
-
-	/** No factor, sighting or prior speaks of a state that is not in the window. */
-	void expectNothingDangles()
-	{
-		std::set<const double*> known{window.T_BC.data(), window.wheels.data(), window.plane().data()};
-		std::set<const Frame*> frames;
-		for (const auto& f : window.frames)
-		{
-			known.insert(f->pose.data());
-			known.insert(f->motion.data());
-			frames.insert(f.get());
-		}
-		for (const auto& [id, l] : window.landmarks.all())
-		{
-			known.insert(&l.inverse_depth_1_m);
-			for (const Sighting& s : l.sightings) EXPECT_EQ(frames.count(s.frame), 1u);
-		}
-		for (const Factor& f : collectFactors(window))
-			for (const double* block : f.blocks) EXPECT_EQ(known.count(block), 1u);
-		for (const double* block : window.prior_blocks) EXPECT_EQ(known.count(block), 1u);
-	}
-
-	Drive drive;
-	Window window;
-	IntervalFactory factory;
-
-   private:
-	ImuBuffer imu_;
-	WheelBuffer wheels_;
-	int64_t next_id_ = 0;
-	test::Random random_{5};
-};
+	for (const Factor& f : collectFactors(window))
+		for (const double* block : f.blocks) EXPECT_EQ(known.count(block), 1u);
+	for (const double* block : window.prior_blocks) EXPECT_EQ(known.count(block), 1u);
+}
 
 EstimatorOptions smallWindow(Mode mode, int keyframes)
 {
@@ -142,7 +80,7 @@ TEST(WindowUpdate, FillsWithKeyframesThenTheOldestLeaves)
 			EXPECT_NEAR(b.interval.imu->dt_s(), secondsBetween(a.t_ns, b.t_ns), 1e-9);
 			EXPECT_NEAR(b.interval.wheels->dt_s(), secondsBetween(a.t_ns, b.t_ns), 1e-9);
 		}
-		run.expectNothingDangles();
+		expectNothingDangles(run.window);
 	}
 	std::cout << "[measured] growing " << fates[Fate::kept_growing] << ", oldest marginalised " << fates[Fate::kept_oldest_marginalized]
 	          << ", merged " << fates[Fate::merged] << ", timed " << fates[Fate::kept_timed] << "\n";
@@ -257,7 +195,7 @@ TEST(WindowUpdate, MergingJoinsIntervalsAndLeavesNoState)
 		EXPECT_LT((joined.imu->delta().alpha - whole.imu->delta().alpha).norm(), 1e-5);
 		EXPECT_LT((joined.imu->delta().beta - whole.imu->delta().beta).norm(), 1e-4);
 		EXPECT_LT((joined.wheels->dp() - whole.wheels->dp()).norm(), 1e-9);
-		run.expectNothingDangles();
+		expectNothingDangles(run.window);
 	}
 	EXPECT_GT(merged, 20);
 }
@@ -279,7 +217,7 @@ TEST(WindowUpdate, DroppedFrameLeavesThePrior)
 	EXPECT_EQ(run.step(run.drive.frames[i]), Fate::merged);
 	EXPECT_EQ(std::find(run.window.prior_blocks.begin(), run.window.prior_blocks.end(), pose), run.window.prior_blocks.end());
 	ASSERT_TRUE(run.window.prior);
-	run.expectNothingDangles();
+	expectNothingDangles(run.window);
 }
 
 TEST(WindowUpdate, StandingKeepsParallaxAndShortIntervals)
@@ -311,7 +249,7 @@ TEST(WindowUpdate, StandingKeepsParallaxAndShortIntervals)
 	EXPECT_GE(fates_standing[Fate::kept_timed], 3);
 	EXPECT_GE(before_standing.size(), 3u);
 	EXPECT_EQ(fates_standing[Fate::kept_oldest_marginalized], 0);
-	run.expectNothingDangles();
+	expectNothingDangles(run.window);
 }
 
 /** Information of a set of factors along one direction, with each state at the point where its Jacobians are taken. */
