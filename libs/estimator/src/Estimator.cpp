@@ -247,7 +247,7 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 	running = ever_started = true;
 	slip_gate.reset();
 	standstill_gate.reset();
-	window.landmarks.triangulate(window.T_BC_pose());
+	window.landmarks.triangulate(window.T_BC_pose(), options.priors.start_inverse_depth_sigma_1_m);
 	const SolveReport solved = solveWindow(window, kStartIterations);
 	if (!solved.usable || !plausible(window.latest().state()))
 	{
@@ -275,7 +275,7 @@ void Estimator::Impl::track(FrameEstimate& out)
 	if (latest.standing && !was_standing) ++counters.standstills;
 	{
 		Stage stage(hook, "triangulate");
-		window.landmarks.triangulate(window.T_BC_pose());
+		window.landmarks.triangulate(window.T_BC_pose(), options.priors.inverse_depth_sigma_1_m);
 	}
 	SolveReport solved;
 	{

@@ -28,6 +28,7 @@ struct Landmark
 	std::vector<Sighting> sightings;
 	double inverse_depth_1_m = 0;  //!< inverse distance along the anchor's bearing; a solver block
 	double deviation = 1e9;	 //!< of the inverse depth, relative, given the poses
+	double prior_sigma_1_m = 0;
 	bool in_use = false;  //!< has a depth and takes part in the problem
 	std::shared_ptr<LocalCost> prior_factor;
 
@@ -41,7 +42,7 @@ class LandmarkMap
 	struct Settings
 	{
 		double sigma_rad = 1;  //!< noise of a bearing
-		double prior_mean_1_m = 0.25, prior_sigma_1_m = 0.5;
+		double prior_mean_1_m = 0.25;
 		double outlier_rad = 1;	 //!< mean error that throws a landmark out
 		double known_deviation = 0.3;
 	};
@@ -59,8 +60,8 @@ class LandmarkMap
 	/** Landmarks anchored in a frame leave with it; their tracks begin anew with later frames. */
 	void eraseAnchoredIn(const Frame& frame);
 
-	/** Gives a depth to tracks that two frames or more have seen, from the frames' poses and the prior. */
-	void triangulate(const Pose3& T_BC);
+	/** Gives a depth to tracks that two frames or more have seen, from the frames' poses and the prior (deviation of the inverse depth). */
+	void triangulate(const Pose3& T_BC, double prior_sigma_1_m);
 
 	/** Refreshes every deviation and throws out landmarks that lie behind a camera or fit badly. @return how many were thrown out. */
 	int assess(const Pose3& T_BC);

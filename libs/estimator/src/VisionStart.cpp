@@ -22,7 +22,7 @@ constexpr double kVelocityShare = 0.3;
 SfmOptions sfmOptions(const Window& w)
 {
 	SfmOptions options;
-	options.sigma_rad = w.landmarks.settings().sigma_rad;
+	options.sigma_rad = w.options.noise.start_pixel_sigma_px / w.calibration.camera.meanFocal_px();
 	return options;
 }
 

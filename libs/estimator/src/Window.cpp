@@ -31,7 +31,6 @@ LandmarkMap::Settings landmarkSettings(const EstimatorOptions& o, const CameraMo
 	s.sigma_rad = o.noise.pixel_sigma_px / f_px;
 	s.outlier_rad = o.window.outlier_px / f_px;
 	s.prior_mean_1_m = o.priors.inverse_depth_mean_1_m;
-	s.prior_sigma_1_m = o.priors.inverse_depth_sigma_1_m;
 	s.known_deviation = o.window.tracking_depth_deviation;
 	return s;
 }
@@ -96,7 +95,7 @@ void addLandmarks(Window& w, std::vector<Factor>& factors)
 	{
 		if (!landmark.in_use) continue;
 		if (!landmark.prior_factor)
-			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, settings.prior_sigma_1_m));
+			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, landmark.prior_sigma_1_m));
 		factors.push_back({landmark.prior_factor, nullptr, {&landmark.inverse_depth_1_m}});
 		double* const anchor = landmark.anchor().pose.data();
 		for (size_t i = 1; i < landmark.sightings.size(); ++i)

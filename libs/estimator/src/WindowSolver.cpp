@@ -4,6 +4,8 @@
 #include "residuals/LinearPrior.h"
 #include "residuals/PoseManifold.h"
 
+#include <viwo/sfm/ScopedQuietLog.h>
+
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -90,6 +92,7 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	options.function_tolerance = 1e-4;
 	options.logging_type = ceres::SILENT;
 	ceres::Solver::Summary summary;
+	const ScopedQuietLog quiet;
 	ceres::Solve(options, &problem, &summary);
 	copies.writeBack();
 	return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};

@@ -1,5 +1,7 @@
 #include "BundleAdjustment.h"
 
+#include <viwo/sfm/ScopedQuietLog.h>
+
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 #include <viwo/core/So3.h>
@@ -101,6 +103,7 @@ std::optional<Pose3> resect(const Scene& scene, int frame, const Pose3& guess, i
 	ceres::Solver::Summary summary;
 	ceres::Solver::Options options = solverOptions(settings, ceres::DENSE_QR);
 	options.function_tolerance = kResectionTolerance;  // the adjustment follows
+	const ScopedQuietLog quiet;
 	ceres::Solve(options, &problem, &summary);
 	if (!summary.IsSolutionUsable()) return std::nullopt;
 	const Pose3 T = camera.pose();
@@ -155,6 +158,7 @@ bool adjust(Scene& scene, const AdjustmentSettings& settings)
 	ceres::Solver::Options options = solverOptions(settings, ceres::DENSE_SCHUR);
 	options.linear_solver_ordering.reset(ordering);
 	ceres::Solver::Summary summary;
+	const ScopedQuietLog quiet;
 	ceres::Solve(options, &problem, &summary);
 	for (size_t k = 0; k < cameras.size(); ++k) scene.T_r_ck[k] = cameras[k].pose();
 	return summary.IsSolutionUsable();

@@ -1,5 +1,7 @@
 #include "TwoView.h"
 
+#include <viwo/sfm/ScopedQuietLog.h>
+
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 #include <viwo/core/So3.h>
@@ -84,6 +86,7 @@ Pose3 refined(const Pose3& T_ab, const std::vector<Correspondence>& pairs, doubl
 	options.num_threads = 1;
 	options.logging_type = ceres::SILENT;
 	ceres::Solver::Summary summary;
+	const ScopedQuietLog quiet;
 	ceres::Solve(options, &problem, &summary);
 	return {so3::expQuaternion(Eigen::Map<Eigen::Vector3d>(rotation)), Eigen::Map<Eigen::Vector3d>(p).normalized()};
 }

@@ -57,6 +57,7 @@ struct NoiseOptions : Options<NoiseOptions>
 	ImuNoise imu;
 	WheelNoise wheels;
 	double pixel_sigma_px = 2.5;
+	double start_pixel_sigma_px = 0.7;
 	double gravity_m_s2 = 9.81;
 
 	template <class Visitor>
@@ -72,6 +73,7 @@ struct NoiseOptions : Options<NoiseOptions>
 		v("wheel_vertical_m_s_sqrtHz", wheels.vertical_m_s_sqrtHz, "vertical motion", 1e-6, 10.0);
 		v("wheel_tilt_rad_s_sqrtHz", wheels.tilt_rad_s_sqrtHz, "roll and pitch rates", 1e-6, 10.0);
 		v("pixel_sigma_px", pixel_sigma_px, "of a tracked corner, its drift along the track and the error of its first sighting (which all others share) included", 0.01, 20.0);
+		v("start_pixel_sigma_px", start_pixel_sigma_px, "the same over the short window of the vision start, where tracks have not drifted", 0.01, 20.0);
 		v("gravity_m_s2", gravity_m_s2, "|g| where the robot drives", 9.7, 9.9);
 	}
 };
@@ -88,6 +90,7 @@ struct PriorOptions : Options<PriorOptions>
 	double velocity_m_s = 0.1;
 	double inverse_depth_mean_1_m = 0.25;
 	double inverse_depth_sigma_1_m = 5;
+	double start_inverse_depth_sigma_1_m = 0.25;
 	double plane_tilt_deg = 1.0;
 	double plane_factor_tilt_deg = 0.5;
 	double plane_factor_height_m = 0.004;
@@ -107,6 +110,7 @@ struct PriorOptions : Options<PriorOptions>
 		v("velocity_m_s", velocity_m_s, "velocity at the start", 1e-4, 100.0);
 		v("inverse_depth_mean_1_m", inverse_depth_mean_1_m, "of a landmark not yet triangulated", 1e-3, 10.0);
 		v("inverse_depth_sigma_1_m", inverse_depth_sigma_1_m, "its deviation", 1e-2, 100.0);
+		v("start_inverse_depth_sigma_1_m", start_inverse_depth_sigma_1_m, "the same for landmarks of the first window, where depth and turn are one on the spot", 1e-2, 100.0);
 		v("plane_tilt_deg", plane_tilt_deg, "tilt of the floor against gravity at the start", 1e-3, 45.0);
 		v("plane_factor_tilt_deg", plane_factor_tilt_deg, "roll and pitch of the robot on its floor, correlated over about a metre", 1e-3, 45.0);
 		v("plane_factor_height_m", plane_factor_height_m, "height of the robot over its floor", 1e-5, 10.0);
