@@ -18,6 +18,7 @@
 #include "residuals/BlockAlgebra.h"
 #include "residuals/LinearPrior.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace viwo
@@ -77,6 +78,7 @@ struct Estimator::Impl
 	StandstillGate standstill_gate;
 	WheelOdometry wheel_odometry;
 	StatusLog status;
+	double fresh_track_sigma_rad;  //!< noise of a corner between two images: no drift in it yet
 	EstimatorCounters counters;
 	StageHook hook;
 
@@ -91,7 +93,8 @@ struct Estimator::Impl
 	bool ever_started = false;
 
 	Impl(const EstimatorOptions& o, const Calibration& c)
-		: options(o), calibration(c), window(o, c), intervals(o, c.wheels), slip_gate(o, c), wheel_odometry(o, c.wheels), status(o.window)
+		: options(o), calibration(c), window(o, c), intervals(o, c.wheels), slip_gate(o, c), wheel_odometry(o, c.wheels), status(o.window),
+		  fresh_track_sigma_rad(o.noise.start_pixel_sigma_px / std::max(1.0, c.camera.meanFocal_px()))
 	{
 	}
 
@@ -269,7 +272,7 @@ void Estimator::Impl::track(FrameEstimate& out)
 	if (out.slip) distrustWheels(window, *slipping_s);
 	const bool was_standing = before.standing;
 	if (out.slip) standstill_gate.reset();
-	latest.standing = standstill_gate.judge(latest.interval, previous.b_g, before.features, latest.features, window.landmarks.settings().sigma_rad);
+	latest.standing = standstill_gate.judge(latest.interval, previous.b_g, before.features, latest.features, fresh_track_sigma_rad);
 	if (latest.standing) latest.interval.wheels->scaleCovariance(kStandstillTrust);
 	out.standing = latest.standing;
 	if (latest.standing && !was_standing) ++counters.standstills;
