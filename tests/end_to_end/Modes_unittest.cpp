@@ -47,7 +47,9 @@ TEST_F(Modes, LobbyOnAnArcInMotionFromTheStart)
 	EXPECT_LT(viwo.ate_xyz_m, 0.025);
 	EXPECT_LT(viwo.yaw_rmse_deg, 0.5);
 	EXPECT_LT(viwo.ate_xyz_m, wheel.ate_xyz_m + 0.01);
-	EXPECT_LT(vio.ate_xyz_m, 0.05 * std::max(1.0, vio.length_m)) << "has diverged";
+	// On a constant arc camera and IMU observe no scale (Wu et al. 2017): vio is only to stay bounded, and viwo to beat it.
+	EXPECT_LT(vio.ate_xyz_m, 0.25) << "has diverged";
+	EXPECT_LT(viwo.ate_xyz_m, vio.ate_xyz_m);
 	EXPECT_GE(viwo.coverage, 0.94) << "of 20 s one may pass before the first pose";
 	EXPECT_LE(summary("viwo").at("first_pose_s").get<double>(), 1.0);
 }
