@@ -278,7 +278,7 @@ void Estimator::Impl::track(FrameEstimate& out)
 	if (latest.standing && !was_standing) ++counters.standstills;
 	{
 		Stage stage(hook, "triangulate");
-		window.landmarks.triangulate(window.T_BC_pose(), options.priors.inverse_depth_sigma_1_m);
+		window.landmarks.triangulate(window.T_BC_pose());
 	}
 	SolveReport solved;
 	{

@@ -42,7 +42,7 @@ class LandmarkMap
 	struct Settings
 	{
 		double sigma_rad = 1;  //!< noise of a bearing
-		double prior_mean_1_m = 0.25;
+		double prior_mean_1_m = 0.25, prior_sigma_1_m = 5;
 		double outlier_rad = 1;	 //!< mean error that throws a landmark out
 		double known_deviation = 0.3;
 	};
@@ -62,6 +62,8 @@ class LandmarkMap
 
 	/** Gives a depth to tracks that two frames or more have seen, from the frames' poses and the prior (deviation of the inverse depth). */
 	void triangulate(const Pose3& T_BC, double prior_sigma_1_m);
+	/** With the prior of the settings. */
+	void triangulate(const Pose3& T_BC) { triangulate(T_BC, settings_.prior_sigma_1_m); }
 
 	/** Refreshes every deviation and throws out landmarks that lie behind a camera or fit badly. @return how many were thrown out. */
 	int assess(const Pose3& T_BC);

@@ -31,6 +31,7 @@ LandmarkMap::Settings landmarkSettings(const EstimatorOptions& o, const CameraMo
 	s.sigma_rad = o.noise.pixel_sigma_px / f_px;
 	s.outlier_rad = o.window.outlier_px / f_px;
 	s.prior_mean_1_m = o.priors.inverse_depth_mean_1_m;
+	s.prior_sigma_1_m = o.priors.inverse_depth_sigma_1_m;
 	s.known_deviation = o.window.tracking_depth_deviation;
 	return s;
 }
