@@ -11,20 +11,24 @@
 #include "CornerDetector.h"
 #include "EpipolarGate.h"
 #include "OpticalFlow.h"
+#include "ReferencePatch.h"
 
 namespace viwo
 {
 namespace
 {
 constexpr int kClaheTiles = 8;
-constexpr double kGainTolerance = 0.005;  // below this the optical flow's bias is under 0.02 px
-constexpr double kCrowdedShare = 0.5;     // of min_distance_px
-constexpr int kSmallestSide_px = 20;      // of the pyramid level on which brightness is compared
+constexpr double kGainTolerance = 0.005;       // below this the optical flow's bias is under 0.02 px
+constexpr double kCrowdedShare = 0.5;          // of min_distance_px
+constexpr float kLargestMagnification = 2.5f;  // of area; beyond, and below the inverse, reference and image differ in detail
+constexpr double kBlurredShare = 0.5;          // of the corners: when more look changed, it is the image that is, by blur or light
+constexpr int kSmallestSide_px = 20;           // of the pyramid level on which brightness is compared
 
 struct Track
 {
 	FeatureObservation observation;
 	cv::Point2f pixel;
+	std::optional<ReferencePatch> reference = std::nullopt;  //!< none only when references are switched off
 };
 
 std::string sizeText(const cv::Size& s)
@@ -142,8 +146,15 @@ class FeatureTracker::Impl
 			const bool inside = status[i] == FlowStatus::tracked && isInside(to[i]);
 			if (status[i] == FlowStatus::lost || (status[i] == FlowStatus::tracked && !inside)) ++stats_.lost_flow;
 			if (!inside) continue;
-			followed.push_back(trackAt(tracks_[i].observation.id, to[i]));
-			pairs.push_back({tracks_[i].observation.bearing_C, followed.back().observation.bearing_C});
+			followed.push_back(std::move(tracks_[i]));
+			followed.back().pixel = to[i];
+		}
+		putBack(followed, current.grey());
+		for (Track& t : followed)
+		{
+			const Eigen::Vector3d before = t.observation.bearing_C;
+			t.observation = observationAt(t.observation.id, t.pixel);
+			pairs.push_back({before, t.observation.bearing_C});
 		}
 		const std::vector<bool> rigid = gate(pairs, R_Cprev_Ccur);
 		tracks_.clear();
@@ -154,7 +165,7 @@ class FeatureTracker::Impl
 			else if (!detector_.allowed(followed[i].pixel) || isCrowded(followed[i].pixel))
 				++stats_.lost_crowded;
 			else
-				tracks_.push_back(followed[i]);
+				tracks_.push_back(std::move(followed[i]));
 		}
 		stats_.tracked = static_cast<int>(tracks_.size());
 	}
@@ -178,10 +189,37 @@ class FeatureTracker::Impl
 
 	bool isInside(const cv::Point2f& p) const { return camera_.contains({p.x, p.y}, options_.border_px); }
 
-	Track trackAt(uint64_t id, const cv::Point2f& pixel) const
+	/** Moves corners from where optical flow took them to where their first sight is; those without a likeness are lost. */
+	void putBack(std::vector<Track>& followed, const cv::Mat& grey)
+	{
+		if (options_.reference_px == 0) return;
+		std::vector<std::optional<cv::Point2f>> found;
+		for (Track& t : followed) found.push_back(t.reference->find(grey, t.pixel, options_));
+		const auto changed = std::count_if(found.begin(), found.end(), [&](const auto& f) { return !f || !isInside(*f); });
+		if (static_cast<double>(changed) > kBlurredShare * static_cast<double>(found.size())) return;
+		std::vector<Track> alike;
+		for (size_t i = 0; i < followed.size(); ++i)
+		{
+			if (!found[i] || !isInside(*found[i])) continue;
+			alike.push_back(std::move(followed[i]));
+			alike.back().pixel = *found[i];
+			renewReference(alike.back(), grey);
+		}
+		stats_.lost_changed = static_cast<int>(changed);
+		followed = std::move(alike);
+	}
+
+	void renewReference(Track& t, const cv::Mat& grey) const
+	{
+		const float m = t.reference->magnification();
+		if (m < kLargestMagnification && m > 1 / kLargestMagnification) return;
+		if (auto fresh = ReferencePatch::at(grey, t.pixel, options_.reference_px)) t.reference = std::move(fresh);
+	}
+
+	FeatureObservation observationAt(uint64_t id, const cv::Point2f& pixel) const
 	{
 		const Eigen::Vector2d exact(pixel.x, pixel.y);
-		return {{id, exact, camera_.unproject(exact)}, pixel};
+		return {id, exact, camera_.unproject(exact)};
 	}
 
 	std::vector<bool> gate(const std::vector<BearingPair>& pairs, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur) const
@@ -216,7 +254,10 @@ class FeatureTracker::Impl
 		detector_.refine(current.grey(), fresh);
 		for (const cv::Point2f& p : fresh)
 		{
-			tracks_.push_back(trackAt(next_id_++, p));
+			Track t{observationAt(next_id_, p), p};
+			if (options_.reference_px > 0 && !(t.reference = ReferencePatch::at(current.grey(), p, options_.reference_px))) continue;
+			tracks_.push_back(std::move(t));
+			++next_id_;
 			++stats_.detected;
 		}
 	}

@@ -56,8 +56,8 @@ struct NoiseOptions : Options<NoiseOptions>
 {
 	ImuNoise imu;
 	WheelNoise wheels;
-	double pixel_sigma_px = 2.5;
-	double start_pixel_sigma_px = 0.7;
+	double pixel_sigma_px = 1;
+	double start_pixel_sigma_px = 0.3;
 	double gravity_m_s2 = 9.81;
 
 	template <class Visitor>
@@ -72,8 +72,8 @@ struct NoiseOptions : Options<NoiseOptions>
 		v("wheel_lateral_m_s_sqrtHz", wheels.lateral_m_s_sqrtHz, "side slip", 1e-6, 10.0);
 		v("wheel_vertical_m_s_sqrtHz", wheels.vertical_m_s_sqrtHz, "vertical motion", 1e-6, 10.0);
 		v("wheel_tilt_rad_s_sqrtHz", wheels.tilt_rad_s_sqrtHz, "roll and pitch rates", 1e-6, 10.0);
-		v("pixel_sigma_px", pixel_sigma_px, "of a tracked corner, its drift along the track and the error of its first sighting (which all others share) included", 0.01, 20.0);
-		v("start_pixel_sigma_px", start_pixel_sigma_px, "the same over the short window of the vision start, where tracks have not drifted", 0.01, 20.0);
+		v("pixel_sigma_px", pixel_sigma_px, "of a tracked corner, with the error of its first sighting, which all others share", 0.01, 20.0);
+		v("start_pixel_sigma_px", start_pixel_sigma_px, "of a corner from one image to the next: the vision start and standstill", 0.01, 20.0);
 		v("gravity_m_s2", gravity_m_s2, "|g| where the robot drives", 9.7, 9.9);
 	}
 };
@@ -128,8 +128,8 @@ struct WindowOptions : Options<WindowOptions>
 	int keyframe_min_tracked = 20;
 	double max_interval_s = 3;
 	int max_iterations = 6;
-	double huber_px = 2.5;
-	double outlier_px = 8;
+	double huber_px = 1.5;
+	double outlier_px = 5;
 	double slip_gate_sigma = 5;
 	double slip_gate_window_s = 1;
 	double start_after_s = 0.75;

@@ -19,6 +19,7 @@ struct TrackerStats
 	int tracked = 0;      //!< carried over from the image before
 	int lost_flow = 0;    //!< optical flow failed, or the corner left the image
 	int lost_forward_backward = 0;
+	int lost_changed = 0;  //!< no longer looks as it did at first
 	int lost_ransac = 0;   //!< disagrees with a rigid scene
 	int lost_crowded = 0;  //!< came too close to an older corner, or into the mask
 	int detected = 0;      //!< new
@@ -26,7 +27,8 @@ struct TrackerStats
 };
 
 /** Finds corners (Shi-Tomasi, spread over a grid) and follows them from image to image (pyramidal Lucas-Kanade, started where the gyroscope
- *  predicts them), as in Niu et al. Sec. 4.1. What a track disagrees with (itself when followed backwards, the epipolar geometry) ends it.
+ *  predicts them), as in Niu et al. Sec. 4.1, then puts each back to what it was at first sight, so that no track drifts. What a track
+ * disagrees with (itself when followed backwards, its first sight, the epipolar geometry) ends it.
  *
  *  Deterministic: the same images give the same frames, whatever the number of OpenCV's threads. No global is touched: a program that wants
  *  OpenCV on one thread calls cv::setNumThreads(1) itself.

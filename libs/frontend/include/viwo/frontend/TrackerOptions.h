@@ -24,6 +24,10 @@ struct TrackerOptions : Options<TrackerOptions>
 	double min_eigenvalue = 1e-4;
 	double forward_backward_px = 0.5;
 
+	int reference_px = 21;
+	double reference_correlation = 0.8;
+	double reference_shift_px = 1.0;
+
 	double ransac_px = 1.5;
 	double rotation_tolerance_rad = 2e-3;
 	int ransac_iterations = 100;
@@ -54,6 +58,10 @@ struct TrackerOptions : Options<TrackerOptions>
 		v("epsilon_px", epsilon_px, "optical flow ends when a step is below this", 1e-4, 1.0);
 		v("min_eigenvalue", min_eigenvalue, "a window with less texture than this is not followed (OpenCV's minEigThreshold)", 0.0, 1.0);
 		v("forward_backward_px", forward_backward_px, "a corner followed there and back again must return to within this", 0.01, 20.0);
+		v("reference_px", reference_px,
+		  "side of the patch that is kept of a corner's first sight, odd; 0: corners are followed from image to image alone", 0, 61);
+		v("reference_correlation", reference_correlation, "a corner that is less like its first sight than this is lost", 0.0, 1.0);
+		v("reference_shift_px", reference_shift_px, "and so is one that optical flow and its first sight put this far apart", 0.05, 20.0);
 		v("ransac_px", ransac_px, "largest distance from the epipolar line", 0.1, 50.0);
 		v("rotation_tolerance_rad", rotation_tolerance_rad,
 		  "error of the predicted rotation over one frame that the epipolar gate allows for", 0.0, 0.1);
