@@ -1,4 +1,5 @@
 #include <viwo/app/Program.h>
+#include <viwo/importers/CarmenImporter.h>
 #include <viwo/importers/EurocImporter.h>
 #include <viwo/importers/KittiImporter.h>
 
@@ -11,15 +12,20 @@ namespace
 {
 void addFiles(CLI::App& command, ImportJob& job)
 {
-	command.add_option("folder", job.folder, "The recording")->required();
+	command.add_option("recording", job.folder, "The recording: its folder, or the log's file")->required();
 	command.add_option("-o,--output", job.rawlog_path, "X.rawlog; images go to X_Images/, the ground truth to X_ground_truth.tum")
 	    ->required();
 }
 
 void print(const ImportJob& job, const ImportResult& result)
 {
-	std::printf("%s: %zu images, %zu IMU samples, %zu odometry samples in %.3f s\n", job.rawlog_path.c_str(), result.images,
-	            result.imu_samples, result.odometry_samples, result.duration_s);
+	const char* rawlog = job.rawlog_path.c_str();
+	if (result.scans > 0)
+		std::printf("%s: %zu scans, %zu odometry samples in %.3f s\n", rawlog, result.scans, result.odometry_samples, result.duration_s);
+	else
+		std::printf("%s: %zu images, %zu IMU samples, %zu odometry samples in %.3f s\n", rawlog, result.images, result.imu_samples,
+		            result.odometry_samples, result.duration_s);
+	if (!result.stamps_path.empty()) std::printf("%s: original stamps\n", result.stamps_path.c_str());
 	if (!result.ground_truth_path.empty()) std::printf("%s: %zu poses of O\n", result.ground_truth_path.c_str(), result.ground_truth_poses);
 	std::fflush(stdout);
 	if (app::quiet()) return;
@@ -45,10 +51,13 @@ int main(int argc, char** argv)
 	    ->check(CLI::PositiveNumber)
 	    ->capture_default_str();
 	kitti->add_option("--seed", kitti_options.seed, "Of the speed noise")->capture_default_str();
+	CLI::App* carmen = cli.add_subcommand("carmen", "A CARMEN log with scans and odometry (plain, .gz or .bz2)");
+	addFiles(*carmen, job);
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-import euroc V1_01_easy -o v101.rawlog\n"
 	    "  viwo-import kitti 2011_09_26_drive_0005_extract -o drive.rawlog --speed-noise 0.05 --speed-scale 1.01 --seed 3\n"
+	    "  viwo-import carmen intel.clf.bz2 -o intel.rawlog\n"
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
 
 	return app::run(cli, argc, argv,
@@ -60,7 +69,13 @@ int main(int argc, char** argv)
 			                bar.update(fraction, "copying");
 			                return !app::interrupted();
 		                };
-		                const ImportResult result = euroc->parsed() ? importEuroc(job) : importKitti(job, kitti_options);
+		                ImportResult result;
+		                if (euroc->parsed())
+			                result = importEuroc(job);
+		                else if (kitti->parsed())
+			                result = importKitti(job, kitti_options);
+		                else
+			                result = importCarmen(job);
 		                bar.clear();
 		                print(job, result);
 		                return 0;

@@ -10,7 +10,7 @@ namespace viwo
 /** What every import takes. */
 struct ImportJob
 {
-	std::string folder;       //!< the recording
+	std::string folder;       //!< the recording: a folder, or the log's file
 	std::string rawlog_path;  //!< X.rawlog; images go to X_Images/, the truth to X_ground_truth.tum beside it
 	/** Called with the fraction done; the import stops with an Error when it returns false. */
 	std::function<bool(double)> proceed = [](double) { return true; };
@@ -19,9 +19,10 @@ struct ImportJob
 /** What an import made. */
 struct ImportResult
 {
-	size_t images = 0, imu_samples = 0, odometry_samples = 0, ground_truth_poses = 0;
+	size_t images = 0, imu_samples = 0, odometry_samples = 0, scans = 0, ground_truth_poses = 0;
 	double duration_s = 0;           //!< first to last observation
 	std::string ground_truth_path;   //!< empty without a ground truth
+	std::string stamps_path;         //!< rawlog stamps against original ones; empty where they are the same
 	std::vector<std::string> notes;  //!< what the user should know: what was absent, skipped, or assumed
 };
 }  // namespace viwo
