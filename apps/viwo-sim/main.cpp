@@ -1,4 +1,5 @@
 #include <viwo/app/Program.h>
+#include <viwo/sim/Sequence.h>
 #include <viwo/sim/Simulation.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace
 struct Arguments
 {
 	std::string world = "corridor", route = "corridor_out_and_back", rig = "turtlebot2";
+	std::string sequence;
 	std::string output;
 	uint64_t seed = 1;
 	bool no_images = false;
@@ -23,9 +25,17 @@ struct Arguments
 
 void declare(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("-w,--world", a.world, "World: an INI file, or the name of one in share/viwo/worlds")->capture_default_str();
-	cli.add_option("-r,--route", a.route, "Route: an INI file, or the name of one in share/viwo/routes")->capture_default_str();
-	cli.add_option("-g,--rig", a.rig, "Robot and sensors: an INI file, or the name of one in share/viwo/rigs")->capture_default_str();
+	CLI::Option* sequence = cli.add_option(
+	    "--sequence", a.sequence, "World, route and rig together: an INI file, or the name of one in share/viwo/sequences, e.g. seq01");
+	cli.add_option("-w,--world", a.world, "World: an INI file, or the name of one in share/viwo/worlds")
+	    ->capture_default_str()
+	    ->excludes(sequence);
+	cli.add_option("-r,--route", a.route, "Route: an INI file, or the name of one in share/viwo/routes")
+	    ->capture_default_str()
+	    ->excludes(sequence);
+	cli.add_option("-g,--rig", a.rig, "Robot and sensors: an INI file, or the name of one in share/viwo/rigs")
+	    ->capture_default_str()
+	    ->excludes(sequence);
 	cli.add_option("-s,--seed", a.seed, "Seed of all random draws: same inputs and seed, same files")->capture_default_str();
 	cli.add_option("-o,--output", a.output, "X.rawlog; X_Images/, X_ground_truth.tum and X_simulation.ini are written beside it")
 	    ->required();
@@ -39,6 +49,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-sim -o run.rawlog\n"
+	    "  viwo-sim --sequence seq05 --seed 1 -o seq05.rawlog\n"
 	    "  viwo-sim --world lobby --route lobby_arc --seed 3 -o arc.rawlog\n"
 	    "  viwo-sim --route my_route.ini --set wheels.slips='20 2 0.3 0' -o slip.rawlog\n"
 	    "  viwo-sim --set camera.black_from_s=30 --set camera.black_to_s=35 -o black.rawlog\n"
@@ -52,12 +63,19 @@ void declare(CLI::App& cli, Arguments& a)
 std::string resolve(const std::string& name, const std::string& shipped_folder)
 {
 	const std::filesystem::path path(name);
-	if (std::filesystem::exists(path) || path.has_parent_path() || path.extension() == ".ini") return name;
+	if (std::filesystem::is_regular_file(path) || path.has_parent_path() || path.extension() == ".ini") return name;
 	return app::findShare(shipped_folder + "/" + name + ".ini");
 }
 
-int simulate(const Arguments& a)
+int simulate(Arguments& a)
 {
+	if (!a.sequence.empty())
+	{
+		const sim::Sequence sequence = sim::Sequence::load(resolve(a.sequence, "sequences"));
+		a.world = sequence.world;
+		a.route = sequence.route;
+		a.rig = sequence.rig;
+	}
 	sim::Rig rig;
 	sim::Route route;
 	sim::loadRun(resolve(a.rig, "rigs"), resolve(a.route, "routes"), a.overrides, rig, route);

@@ -46,6 +46,22 @@ TEST_F(ViwoSimProgram, ShippedFilesServeByName)
 	EXPECT_TRUE(viwo::testing::readFile(output) == viwo::testing::readFile(again)) << "the written options make the same log";
 }
 
+TEST_F(ViwoSimProgram, ASequenceIsItsWorldRouteAndRig)
+{
+	const std::vector<std::string> common{"--set", "route.duration_s=2", "--no-images", "-o"};
+	const auto simulate = [&](std::vector<std::string> arguments, const std::string& output)
+	{
+		arguments.insert(arguments.end(), common.begin(), common.end());
+		arguments.push_back(folder_.file(output));
+		return viwo::testing::runProgram(kProgram, arguments);
+	};
+	ASSERT_EQ(simulate({"--sequence", "seq05", "--seed", "2"}, "a.rawlog").status, 0);
+	ASSERT_EQ(simulate({"--world", "lobby", "--route", "seq05", "--rig", "turtlebot2_slipping", "--seed", "2"}, "b.rawlog").status, 0);
+	EXPECT_TRUE(viwo::testing::readFile(folder_.file("a.rawlog")) == viwo::testing::readFile(folder_.file("b.rawlog")));
+	EXPECT_EQ(simulate({"--sequence", "seq05", "--route", "sample"}, "c.rawlog").status, 2) << "two routes";
+	EXPECT_EQ(simulate({"--sequence", "seq77"}, "c.rawlog").status, 1);
+}
+
 TEST_F(ViwoSimProgram, ImagesOfARunThatDiffersInItsWheelsAlone)
 {
 	const std::vector<std::string> common{"--world", "lobby", "--route", "sample", "--set", "route.duration_s=0.5"};
@@ -64,7 +80,8 @@ TEST_F(ViwoSimProgram, ImagesOfARunThatDiffersInItsWheelsAlone)
 	for (const auto& entry : std::filesystem::directory_iterator(folder_.file("rendered_Images")))
 	{
 		const std::string name = entry.path().filename().string();
-		EXPECT_TRUE(viwo::testing::readFile(entry.path().string()) == viwo::testing::readFile(folder_.file("taken_Images/" + name))) << name;
+		EXPECT_TRUE(viwo::testing::readFile(entry.path().string()) == viwo::testing::readFile(folder_.file("taken_Images/" + name)))
+		    << name;
 		++images;
 	}
 	EXPECT_EQ(images, 5u);
