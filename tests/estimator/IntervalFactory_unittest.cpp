@@ -46,7 +46,6 @@ TEST(IntervalFactory, OneIntervalPerSensorOfTheMode)
 		EXPECT_EQ(interval.wheels != nullptr, options.useWheels());
 		EXPECT_NEAR(interval.imu ? interval.imu->dt_s() : 0.1, 0.1, 1e-12);
 		EXPECT_NEAR(interval.wheels ? interval.wheels->dt_s() : 0.1, 0.1, 1e-12);
-		EXPECT_FALSE(interval.slip);
 		EXPECT_EQ(factory.imuGaps() + factory.wheelGaps(), 0);
 	}
 }

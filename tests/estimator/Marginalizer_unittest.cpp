@@ -220,7 +220,7 @@ TEST(Marginalizer, AppliesLossesAsCeresDoes)
 		for (const Factor& f : window.factorsOf(0))
 			if (f.loss) factors.push_back(f);
 		factors.push_back(
-		    {std::make_shared<GaugePrior>(poseFromBlock(window.poses[0].data()), 0.1, 0.1), nullptr, {window.poses[0].data()}});
+		    {std::make_shared<GaugePrior>(poseFromBlock(window.poses[0].data()), Eigen::Vector3d::Zero(), 0.1, 0.1), nullptr, {window.poses[0].data()}});
 		factors.push_back(window.startPriors()[1]);
 		const auto eliminated = concatenate({window.poses[0].data()}, window.landmarksOf(0));
 		const MarginalizationResult result = makeMarginalizer(factors, eliminated).run();

@@ -3,6 +3,7 @@
 #include <ImuPreintegration.h>
 #include <SimulatedDrive.h>
 #include <WheelPreintegration.h>
+#include <Window.h>
 #include <gtest/gtest.h>
 
 namespace viwo
@@ -62,6 +63,41 @@ TEST(SlipGate, EveryBurstIsOneEvent)
 			}
 }
 
+/** A slip that goes on is found again in an interval that is in part inflated already: what was merged into it later must not be left out. */
+TEST(SlipGate, MergedIntervalsAreInflatedPartByPart)
+{
+	const WheelIntrinsics k;
+	const WheelNoise noise;
+	const WheelSegment segment{0.1, 0.2, 0.15};
+	const auto one = [&]
+	{
+		auto interval = std::make_shared<WheelPreintegration>(noise, k);
+		interval->integrate(segment);
+		return interval;
+	};
+	Window window(optionsOf(Mode::viwo), Drive(DriveSetup::perfect("stand 0.2 s")).calibration);
+	for (int i = 0; i < 2; ++i)
+	{
+		window.frames.push_back(std::make_unique<Frame>());
+		window.frames.back()->t_ns = i * 100'000'000;
+	}
+	window.latest().interval.wheels = one();
+	distrustWheels(window, 0.1);
+	WheelPreintegration expected = *window.latest().interval.wheels;
+	const WheelPreintegration inflated = expected;
+	distrustWheels(window, 0.1);
+	EXPECT_EQ(window.latest().interval.wheels->covariance(), inflated.covariance()) << "only once";
+
+	window.latest().interval.wheels->append(*one());
+	expected.append(inflated);
+	const double partly = window.latest().interval.wheels->covariance()(5, 5);
+	distrustWheels(window, 0.1);
+	const auto& both = window.latest().interval.wheels->covariance();
+	measured("yaw variance of a half and of a wholly inflated interval", partly, "and " + std::to_string(both(5, 5)) + " rad^2");
+	EXPECT_LT((both - expected.covariance()).norm(), 1e-9 * both.norm());
+	EXPECT_GT(both(5, 5), 1.9 * partly);
+}
+
 TEST(SlipGate, SwitchedOffSeesNothing)
 {
 	DriveSetup setup("straight 1 m");
@@ -85,11 +121,16 @@ double standingShare(const Drive& drive, const DriveResult& result, const Predic
 	return all > 0 ? static_cast<double>(standing) / all : -1;
 }
 
+/** The simulated tracks have 0.3 px in each coordinate of each image, in the differences and with a margin: */
+constexpr double kSyntheticTracks_px = 0.7;
+
 TEST(Standstill, StandsAndDoesNotDrift)
 {
 	for (const Mode mode : {Mode::wio, Mode::viwo})
 	{
 		const Drive drive(DriveSetup("straight 0.4 m, stand 20 s, straight 0.4 m"));
+		EstimatorOptions options = optionsOf(mode);
+		options.noise.start_pixel_sigma_px = kSyntheticTracks_px;
 		double begin_s = -1, end_s = 0;
 		for (const FeatureFrame& f : drive.frames)
 			if (const double t_s = drive.secondsOf(f.t_ns); t_s > 1 && drive.motion.at(t_s).v_WO.norm() < 1e-9)
@@ -97,7 +138,7 @@ TEST(Standstill, StandsAndDoesNotDrift)
 				if (begin_s < 0) begin_s = t_s;
 				if (t_s - begin_s < 20.1) end_s = t_s;
 			}
-		const DriveResult result = runDrive(drive, optionsOf(mode));
+		const DriveResult result = runDrive(drive, options);
 		const double share = standingShare(drive, result, [&](double t_s, const auto&) { return t_s > begin_s + 1 && t_s < end_s - 0.1; });
 		const double while_driving = standingShare(drive, result, [](double, const auto& truth) { return truth.v_WO.norm() > 0.05; });
 		const auto at = [&](double t_s) { return *result.trajectory.at(drive.motion.stamp_ns(t_s), 0.5); };
@@ -113,6 +154,26 @@ TEST(Standstill, StandsAndDoesNotDrift)
 		EXPECT_EQ(result.counters.standstills, 1);
 		EXPECT_EQ(result.counters.slip_events, 0);
 	}
+}
+
+/** Without the factor, standing is told but changes nothing: neither a factor nor the trust in the wheels. */
+TEST(Standstill, SwitchedOffChangesNothing)
+{
+	const DriveSetup setup("straight 0.2 m, stand 4 s");
+	EstimatorOptions off = optionsOf(Mode::wio);
+	off.factors.standstill_factor = false;
+	off.noise.start_pixel_sigma_px = kSyntheticTracks_px;
+	const DriveResult told = runDrive(setup, off);
+	EXPECT_EQ(told.counters.standstills, 1);
+	Drive moving(setup);
+	// A gyro peak that is too short to matter keeps the gate from ever seeing a standstill.
+	for (size_t i = 0; i < moving.imu.size(); i += 2) moving.imu[i].gyro_rad_s.x() += 0.1;
+	for (size_t i = 1; i < moving.imu.size(); i += 2) moving.imu[i].gyro_rad_s.x() -= 0.1;
+	const DriveResult untold = runDrive(moving, off);
+	EXPECT_EQ(untold.counters.standstills, 0);
+	const auto yawSigma = [](const DriveResult& r) { return std::sqrt(r.estimates.back().covariance(5, 5)); };
+	measured("yaw deviation after standing, told", 1e3 * yawSigma(told), "mrad; untold: " + std::to_string(1e3 * yawSigma(untold)));
+	EXPECT_NEAR(yawSigma(told) / yawSigma(untold), 1, 0.02);
 }
 
 /** The robot stands, is pushed or turned with locked wheels, and stands again. */

@@ -67,7 +67,7 @@ class SyntheticWindow
 	Factor gaugePrior() const
 	{
 		const Pose3 T_WB0 = poseFromBlock(poses[0].data());
-		return {std::make_shared<GaugePrior>(T_WB0, 1e-4, 1e-5), nullptr, {const_cast<double*>(poses[0].data())}};
+		return {std::make_shared<GaugePrior>(T_WB0, Eigen::Vector3d::Zero(), 1e-4, 1e-5), nullptr, {const_cast<double*>(poses[0].data())}};
 	}
 	/** On the biases of the first frame, T_BC and the wheel intrinsics, as at the start of a drive; none says anything about the gauge (one
 	 * on the velocity would, as that is in W's axes). */

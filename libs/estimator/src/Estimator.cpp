@@ -276,7 +276,7 @@ void Estimator::Impl::track(FrameEstimate& out)
 	const bool was_standing = before.standing;
 	if (out.slip) standstill_gate.reset();
 	latest.standing = standstill_gate.judge(latest.interval, previous.b_g, before.features, latest.features, fresh_track_sigma_rad);
-	if (latest.standing) latest.interval.wheels->scaleCovariance(kStandstillTrust);
+	if (latest.standing && options.factors.standstill_factor) latest.interval.wheels->scaleCovariance(kStandstillTrust);
 	out.standing = latest.standing;
 	if (latest.standing && !was_standing) ++counters.standstills;
 	{

@@ -18,7 +18,6 @@ struct Interval
 {
 	std::shared_ptr<ImuPreintegration> imu;
 	std::shared_ptr<WheelPreintegration> wheels;
-	bool slip = false;
 };
 
 /** One frame of the window: its state as solver blocks, its tracks, and the interval that leads to it. */

@@ -124,10 +124,8 @@ void distrustWheels(Window& window, double duration_s)
 	const int64_t since_ns = window.latest().t_ns - nanoseconds(duration_s);
 	for (auto& frame : window.frames)
 	{
-		if (frame->t_ns <= since_ns || !frame->interval.wheels || frame->interval.slip) continue;
-		frame->interval.slip = true;
-		frame->interval.wheels->scaleCovariance(kSlipInflation);
-		frame->wheel_factor.reset();
+		if (frame->t_ns <= since_ns || !frame->interval.wheels) continue;
+		if (frame->interval.wheels->raiseVarianceScale(kSlipInflation)) frame->wheel_factor.reset();
 	}
 }
 

@@ -52,8 +52,8 @@ class SlipGate
 	int events_ = 0;
 };
 
-/** Inflates the covariance of the wheel intervals that end less than duration_s before the latest frame's, its own included, and marks them. Those that are
- *  marked already stay as they are.
+/** Inflates the covariance of the wheel intervals that end less than duration_s before the latest frame's, its own included. What is inflated already
+ *  stays as it is, also where it has been merged with what is not.
  */
 void distrustWheels(Window& window, double duration_s);
 

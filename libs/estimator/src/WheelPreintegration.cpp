@@ -121,6 +121,19 @@ void WheelPreintegration::scaleCovariance(double factor)
 	covariance_ *= factor;
 }
 
+bool WheelPreintegration::raiseVarianceScale(double least)
+{
+	bool raised = false;
+	for (WheelSegment& segment : segments_)
+	{
+		if (segment.variance_scale >= least) continue;
+		segment.variance_scale = least;
+		raised = true;
+	}
+	if (raised) repropagate(intrinsics_);
+	return raised;
+}
+
 void WheelPreintegration::reset()
 {
 	dt_s_ = distance_m_ = 0;

@@ -47,6 +47,9 @@ class WheelPreintegration
 	/** Trusts the interval less (factor > 1) or more; holds through append() and repropagate(). */
 	void scaleCovariance(double factor);
 
+	/** Trusts no stretch more than this: lower variance scales are raised to it, others stay. @return whether any was lower. */
+	bool raiseVarianceScale(double least);
+
 	double dt_s() const { return dt_s_; }
 	/** Length of O's path, sum of |v| dt at intrinsics(). */
 	double distance_m() const { return distance_m_; }

@@ -138,7 +138,7 @@ void addStartPriors(Window& w, Frame& gauge, double velocity_sigma_m_s, double g
 {
 	const EstimatorOptions& o = w.options;
 	gauge.keyframe = true;	// as long as it carries the gauge it must not be dropped
-	w.start_priors.push_back({std::make_shared<GaugePrior>(poseFromBlock(gauge.pose.data()), kGaugePosition_m, kGaugeYaw_rad), nullptr, {gauge.pose.data()}});
+	w.start_priors.push_back({std::make_shared<GaugePrior>(poseFromBlock(gauge.pose.data()), w.calibration.T_BO().p, kGaugePosition_m, kGaugeYaw_rad), nullptr, {gauge.pose.data()}});
 
 	// Centred on no bias: what the start measured of it is in the factors, and is not counted twice.
 	Frame& oldest = *w.frames.front();

@@ -78,7 +78,6 @@ void mergeSecondLatest(Window& w)
 	Interval merged = w.frames[second]->interval;
 	if (merged.imu) merged.imu->append(*latest.interval.imu);
 	if (merged.wheels) merged.wheels->append(*latest.interval.wheels);
-	merged.slip = merged.slip || latest.interval.slip;
 	latest.interval = merged;
 	latest.imu_factor.reset();
 	latest.wheel_factor.reset();
