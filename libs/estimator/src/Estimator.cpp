@@ -32,7 +32,7 @@ constexpr double kMaxGyroBias_rad_s = 0.5;
 /** The first solve starts far from the optimum. */
 constexpr int kStartIterations = 30;
 /** Of the covariance of the wheels while the robot stands: they have no noise then, and what they say of the heading must outlast minutes. */
-constexpr double kStandstillTrust = 1e-3;
+constexpr double kStandstillTrust = 1e-5;
 /** Vision is tried at this spacing: a reconstruction that fails is not cheap. */
 constexpr double kVisionStartPeriod_s = 0.3;
 

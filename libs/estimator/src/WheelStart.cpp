@@ -21,6 +21,7 @@ constexpr double kGaugeYaw_rad = 1e-5;
 /** A state that is not to be estimated: small against anything that matters, large enough for the arithmetic. */
 constexpr double kFixed = 1e-6;
 /** How much the floor may tilt the robot back and forth within the start, rad. */
+constexpr double kWheelSpeedSigma_m_s = 5e-3;	// of one reading: ticks, slip
 constexpr double kRocking_rad = 5e-3;
 
 double square(double x) { return x * x; }
@@ -104,6 +105,13 @@ NavState stateAt(const Window& w, const Pose3& T_WO, const WheelTwist& twist, co
 	s.b_g = b_g;
 	return s;
 }
+/** Where wheel factors follow, they say what the wheels know. Without them this prior is all that carries the wheels' scale into the window. */
+double velocitySigma_m_s(const Window& w)
+{
+	if (w.options.useWheelFactor()) return w.options.priors.velocity_m_s;
+	const double speed_m_s = w.frames.front()->state().v_WB.norm();
+	return std::min(w.options.priors.velocity_m_s, kWheelSpeedSigma_m_s + w.options.priors.wheel_scale * speed_m_s);
+}
 }  // namespace
 
 bool startFromWheels(Window& w, IntervalFactory& intervals, const Pose3& T_WO_latest)
@@ -130,7 +138,7 @@ bool startFromWheels(Window& w, IntervalFactory& intervals, const Pose3& T_WO_la
 		w.frames[i]->setState(state);
 		if (i > 0) T_WO = T_WO * wheels->corrected(k).inverse();
 	}
-	addStartPriors(w, w.latest(), w.options.priors.velocity_m_s, bias.sigma_rad_s);
+	addStartPriors(w, w.latest(), velocitySigma_m_s(w), bias.sigma_rad_s);
 	return true;
 }
 

@@ -75,7 +75,8 @@ void addFloor(Window& w, std::vector<Factor>& factors)
 				frame->standstill_factor = std::make_shared<StandstillResidual>(w.options.priors.standstill_velocity_m_s);
 			factors.push_back({frame->standstill_factor, loss, {frame->motion.data()}});
 		}
-		if (!w.options.usePlaneFactor() || (pairwise && frame == w.frames.front())) continue;
+		// What the floor has to say at one place it has said when the robot came to it.
+		if (!w.options.usePlaneFactor() || frame->standing || (pairwise && frame == w.frames.front())) continue;
 		if (!frame->plane_factor && pairwise)
 			frame->plane_factor = std::make_shared<PairPlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
 		if (!frame->plane_factor) frame->plane_factor = std::make_shared<PlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
