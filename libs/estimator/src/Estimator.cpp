@@ -250,10 +250,7 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 	running = ever_started = true;
 	slip_gate.reset();
 	standstill_gate.reset();
-	// With vision's own scale, a prior on depth would be one on scale.
-	const PriorOptions& priors = options.priors;
-	window.landmarks.triangulate(
-		window.T_BC_pose(), status.now() == Status::from_wheels ? priors.start_inverse_depth_sigma_1_m : priors.inverse_depth_sigma_1_m);
+	window.landmarks.triangulate(window.T_BC_pose());
 	const SolveReport solved = solveWindow(window, kStartIterations);
 	if (!solved.usable || !plausible(window.latest().state()))
 	{

@@ -82,12 +82,11 @@ void LandmarkMap::eraseAnchoredIn(const Frame& frame)
 	for (auto it = landmarks_.begin(); it != landmarks_.end();) it = &it->second.anchor() == &frame ? landmarks_.erase(it) : std::next(it);
 }
 
-void LandmarkMap::triangulate(const Pose3& T_BC, double prior_sigma_1_m)
+void LandmarkMap::triangulate(const Pose3& T_BC)
 {
 	for (auto& [id, landmark] : landmarks_)
 	{
 		if (landmark.in_use || landmark.sightings.size() < 2) continue;
-		landmark.prior_sigma_1_m = prior_sigma_1_m;
 		landmark.prior_factor.reset();
 		landmark.in_use = estimateDepth(landmark, T_BC);
 	}
@@ -97,7 +96,7 @@ bool LandmarkMap::estimateDepth(Landmark& landmark, const Pose3& T_BC) const
 {
 	// Gauss-Newton on the inverse depth alone; the prior makes it solvable without parallax. From two starts, as the error is not convex.
 	const Pose3 T_anchor = cameraPose(landmark.anchor(), T_BC);
-	const double prior_information = 1 / (landmark.prior_sigma_1_m * landmark.prior_sigma_1_m);
+	const double prior_information = 1 / (settings_.prior_sigma_1_m * settings_.prior_sigma_1_m);
 	const double weight = 1 / (settings_.sigma_rad * settings_.sigma_rad);
 	double best_cost = 1e300;
 	for (const double start : {settings_.prior_mean_1_m, 4 * settings_.prior_mean_1_m})
@@ -139,7 +138,7 @@ int LandmarkMap::assess(const Pose3& T_BC)
 		landmark.deviation = 1e9;
 		if (!landmark.in_use) continue;
 		const Pose3 T_anchor = cameraPose(landmark.anchor(), T_BC);
-		double information = 1 / (landmark.prior_sigma_1_m * landmark.prior_sigma_1_m), sum_square = 0;
+		double information = 1 / (settings_.prior_sigma_1_m * settings_.prior_sigma_1_m), sum_square = 0;
 		bool in_front = landmark.inverse_depth_1_m > 0;
 		for (size_t i = 1; i < landmark.sightings.size() && in_front; ++i)
 		{

@@ -28,7 +28,6 @@ struct Landmark
 	std::vector<Sighting> sightings;
 	double inverse_depth_1_m = 0;  //!< inverse distance along the anchor's bearing; a solver block
 	double deviation = 1e9;	 //!< of the inverse depth, relative, given the poses
-	double prior_sigma_1_m = 0;
 	bool in_use = false;  //!< has a depth and takes part in the problem
 	std::shared_ptr<LocalCost> prior_factor;
 
@@ -60,10 +59,8 @@ class LandmarkMap
 	/** Landmarks anchored in a frame leave with it; their tracks begin anew with later frames. */
 	void eraseAnchoredIn(const Frame& frame);
 
-	/** Gives a depth to tracks that two frames or more have seen, from the frames' poses and the prior (deviation of the inverse depth). */
-	void triangulate(const Pose3& T_BC, double prior_sigma_1_m);
-	/** With the prior of the settings. */
-	void triangulate(const Pose3& T_BC) { triangulate(T_BC, settings_.prior_sigma_1_m); }
+	/** Gives a depth to tracks that two frames or more have seen, from the poses of the frames and the prior of the settings. */
+	void triangulate(const Pose3& T_BC);
 
 	/** Refreshes every deviation and throws out landmarks that lie behind a camera or fit badly. @return how many were thrown out. */
 	int assess(const Pose3& T_BC);

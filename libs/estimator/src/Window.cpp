@@ -97,7 +97,7 @@ void addLandmarks(Window& w, std::vector<Factor>& factors)
 	{
 		if (!landmark.in_use) continue;
 		if (!landmark.prior_factor)
-			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, landmark.prior_sigma_1_m));
+			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, settings.prior_sigma_1_m));
 		factors.push_back({landmark.prior_factor, nullptr, {&landmark.inverse_depth_1_m}});
 		double* const anchor = landmark.anchor().pose.data();
 		for (size_t i = 1; i < landmark.sightings.size(); ++i)

@@ -90,7 +90,6 @@ struct PriorOptions : Options<PriorOptions>
 	double velocity_m_s = 0.1;
 	double inverse_depth_mean_1_m = 0.25;
 	double inverse_depth_sigma_1_m = 5;
-	double start_inverse_depth_sigma_1_m = 0.25;
 	double plane_tilt_deg = 1.0;
 	double plane_factor_tilt_deg = 0.5;
 	double plane_factor_height_m = 0.004;
@@ -109,8 +108,7 @@ struct PriorOptions : Options<PriorOptions>
 		v("track_relative", track_relative, "track, relative", 1e-6, 0.5);
 		v("velocity_m_s", velocity_m_s, "velocity at the start", 1e-4, 100.0);
 		v("inverse_depth_mean_1_m", inverse_depth_mean_1_m, "of a landmark not yet triangulated", 1e-3, 10.0);
-		v("inverse_depth_sigma_1_m", inverse_depth_sigma_1_m, "its deviation", 1e-2, 100.0);
-		v("start_inverse_depth_sigma_1_m", start_inverse_depth_sigma_1_m, "the same for landmarks of the first window, where depth and turn are one on the spot", 1e-2, 100.0);
+		v("inverse_depth_sigma_1_m", inverse_depth_sigma_1_m, "its deviation: wide, since a prior on depth would be one on scale", 1e-2, 100.0);
 		v("plane_tilt_deg", plane_tilt_deg, "tilt of the floor against gravity at the start", 1e-3, 45.0);
 		v("plane_factor_tilt_deg", plane_factor_tilt_deg, "roll and pitch of the robot on its floor, correlated over about a metre", 1e-3, 45.0);
 		v("plane_factor_height_m", plane_factor_height_m, "height of the robot over its floor", 1e-5, 10.0);
