@@ -32,7 +32,7 @@ class ReferencePatch
 
 	/** Area of the patch in the latest image over its area in the reference. Far from 1 the two show different detail: take a new
 	 * reference. */
-	float magnification() const { return A_.determinant(); }
+	float magnification() const { return A_(0, 0) * A_(1, 1) - A_(0, 1) * A_(1, 0); }
 
    private:
 	struct Warp
