@@ -22,22 +22,23 @@ struct Statistics
 	int ok = 0;
 };
 
-Statistics run(PlanarDrive drive, int seeds, const InitializerOptions& options)
+Statistics run(PlanarDrive drive, int seeds)
 {
+	const PriorOptions priors;
 	Statistics s;
 	for (int seed = 1; seed <= seeds; ++seed)
 	{
 		std::mt19937_64 generator(static_cast<uint64_t>(seed));
 		std::normal_distribution<double> normal(0, 1);
 		const auto draw3 = [&] { return Eigen::Vector3d(normal(generator), normal(generator), normal(generator)); };
-		drive.b_a = options.acc_bias_sigma_m_s2 * draw3();
+		drive.b_a = priors.acc_bias_m_s2 * draw3();
 		drive.b_g = 0.01 * draw3();
-		drive.wheels.k_left = 1 + options.wheel_scale_sigma * normal(generator);
-		drive.wheels.k_right = 1 + options.wheel_scale_sigma * normal(generator);
-		drive.wheels.track_m = 0.23 * (1 + options.track_sigma * normal(generator));
+		drive.wheels.k_left = 1 + priors.wheel_scale * normal(generator);
+		drive.wheels.k_right = 1 + priors.wheel_scale * normal(generator);
+		drive.wheels.track_m = 0.23 * (1 + priors.track_relative * normal(generator));
 		InitializerWindow w(drive, Pose3(forwardOpticalAxes(), {0.25, 0.02, 0.3}),
 		                    {0.3 / 250, true, 1000003 * static_cast<uint64_t>(seed)});
-		const InitializerResult result = Initializer(w.calibration, 9.81, options).align(w.sfm, w.imu, w.wheels);
+		const InitializerResult result = Initializer(w.calibration, nominalBelief(EstimatorOptions(), w.calibration), 9.81, {}).align(w.sfm, w.imu, w.wheels);
 		if (result.status != InitializerStatus::ok) continue;
 		++s.ok;
 		const InitializerErrors e = errorsOf(result, w);
@@ -67,7 +68,7 @@ TEST(InitializerConsistency, ErrorsAreAsLargeAsTheCovarianceSays)
 	constexpr int kSeeds = 20;
 	for (const PlanarDrive& drive : {arc, straight, free})
 	{
-		const Statistics s = run(drive, kSeeds, InitializerOptions());
+		const Statistics s = run(drive, kSeeds);
 		std::cout << "[measured] " << s.ok << " of " << kSeeds << " start; z^2 of scale " << s.scale_z2 << ", gyro bias " << s.gyro_z2
 		          << ", tilt " << s.tilt_z2 << "; chi2/dof " << s.chi2 << " (gyro " << s.gyro_chi2 << "); worst: scale " << s.worst_scale
 		          << ", tilt " << s.worst_up_rad * 180 / M_PI << " deg, velocity " << s.worst_velocity << " m/s, gyro bias " << s.worst_gyro

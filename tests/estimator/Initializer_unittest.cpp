@@ -47,9 +47,14 @@ PlanarDrive lively()
 	return d;
 }
 
+Initializer initializerOf(const InitializerWindow& w, const InitializerOptions& options = {})
+{
+	return {w.calibration, nominalBelief(EstimatorOptions(), w.calibration), kGravity, options};
+}
+
 InitializerResult align(InitializerWindow& w, const InitializerOptions& options = {})
 {
-	return Initializer(w.calibration, kGravity, options).align(w.sfm, w.imu, w.wheels);
+	return initializerOf(w, options).align(w.sfm, w.imu, w.wheels);
 }
 
 void expectExact(const InitializerResult& result, const InitializerWindow& w, const char* what)
@@ -104,11 +109,11 @@ TEST(Initializer, OptionsOfThePaper)
 
 TEST(Initializer, WithoutWheelsNeedsAcceleration)
 {
-	InitializerOptions vio;
-	vio.use_wheels = false;
 	InitializerWindow w(lively(), kForwardCamera), on_line(straight(), kForwardCamera);
-	expectExact(align(w, vio), w, "vision and IMU alone");
-	const InitializerResult dull = align(on_line, vio);
+	w.wheels.clear();
+	on_line.wheels.clear();
+	expectExact(align(w), w, "vision and IMU alone");
+	const InitializerResult dull = align(on_line);
 	EXPECT_EQ(dull.status, InitializerStatus::ill_conditioned) << toString(dull.status) << ", scale sigma " << dull.alignment.scale_sigma;
 }
 
@@ -173,7 +178,7 @@ TEST(Initializer, RejectsWhatDoesNotFit)
 TEST(Initializer, StatesInW)
 {
 	InitializerWindow w(free(), kForwardCamera);
-	const Initializer initializer(w.calibration, kGravity, {});
+	const Initializer initializer = initializerOf(w);
 	const InitializerResult result = initializer.align(w.sfm, w.imu, w.wheels);
 	ASSERT_EQ(result.status, InitializerStatus::ok);
 	const Pose3 wanted(so3::expQuaternion({0, 0, -2.1}), {3, -4, 5});
@@ -194,15 +199,6 @@ TEST(Initializer, StatesInW)
 	const Pose3 T_WO = states[origin].T_WB * w.calibration.T_BO();
 	EXPECT_LT((T_WO.p - wanted.p).norm(), 1e-9);
 	EXPECT_NEAR(yawOf(T_WO.R), -2.1, 1e-9);
-
-	const test::PointScene hall({-5, -5, 0}, {5, 5, 2}, 600, 1.0, 11);
-	const std::vector<SfmPoint> points = initializer.landmarksInW(w.sfm, result, origin, wanted);
-	ASSERT_GT(points.size(), 50u);
-	for (const SfmPoint& p : points)
-	{
-		const Eigen::Vector3d truth = T_moved * hall.points_W[p.id];
-		EXPECT_LT((p.p_c0 - truth).norm(), 2e-3 * std::max(1.0, (truth - wanted.p).norm()));
-	}
 }
 }  // namespace
 }  // namespace viwo

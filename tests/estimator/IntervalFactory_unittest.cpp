@@ -78,6 +78,16 @@ TEST(IntervalFactory, HolesAreBridgedOrCounted)
 	}
 }
 
+/** However many frames a hole spoils, it is one. */
+TEST(IntervalFactory, EachHoleCountsOnce)
+{
+	const Streams streams(1.0, 2.5);
+	IntervalFactory factory(EstimatorOptions(), {1, 1, 0.23});
+	for (int64_t t_ns = 500'000'000; t_ns < 2'900'000'000; t_ns += kFrame_ns) factory.between(streams.imu, streams.wheels, t_ns, t_ns + kFrame_ns);
+	EXPECT_EQ(factory.imuGaps(), 1);
+	EXPECT_EQ(factory.wheelGaps(), 1);
+}
+
 void expectSame(const Interval& a, const Interval& b)
 {
 	const auto relative = [](const auto& x, const auto& y) { return (x - y).norm() / std::max(1e-12, y.norm()); };

@@ -22,9 +22,9 @@ ImuBuffer linearImu(int count)
 }
 
 /** Samples each 50 ms from kStart: sample i moves at i (left) and 2 i (right). */
-WheelBuffer rampWheels(int count, WheelBuffer::Meaning meaning = WheelBuffer::Meaning::mean_over_past_interval)
+WheelBuffer rampWheels(int count)
 {
-	WheelBuffer buffer(meaning);
+	WheelBuffer buffer;
 	for (int i = 0; i < count; ++i) EXPECT_TRUE(buffer.add({kStart + 50 * i * kMs, 1. * i, 2. * i}));
 	return buffer;
 }
@@ -114,17 +114,6 @@ TEST(ImuBuffer, DroppingKeepsWhatTheNextIntervalNeeds)
 	EXPECT_EQ(buffer.latest_ns(), kStart + 50 * kMs);
 }
 
-TEST(ImuBuffer, MeansAreOverTimeAndOverWhatIsCovered)
-{
-	const ImuBuffer buffer = linearImu(6);
-	EXPECT_NEAR(buffer.meanGyro(kStart + 12 * kMs, kStart + 38 * kMs).z(), 0.25, 1e-12);
-	EXPECT_NEAR(buffer.meanAcc(kStart - 100 * kMs, kStart + 20 * kMs).x(), 1, 1e-12);
-	EXPECT_NEAR(buffer.meanAcc(kStart + 15 * kMs, kStart + 15 * kMs).x(), 1.5, 1e-12);
-	EXPECT_NEAR(buffer.meanAcc(kStart + 50 * kMs, kStart + 90 * kMs).x(), 5, 1e-12);
-	EXPECT_EQ(buffer.meanAcc(kStart + 60 * kMs, kStart + 90 * kMs).norm(), 0);
-	EXPECT_EQ(ImuBuffer().meanAcc(0, 1).norm(), 0);
-}
-
 TEST(WheelBuffer, ImagesOnSamplesTakeWholeSamples)
 {
 	const auto segments = rampWheels(6).segments(kStart + 50 * kMs, kStart + 150 * kMs, 0.2);
@@ -159,17 +148,6 @@ TEST(WheelBuffer, TwoImagesBetweenTwoSamples)
 	ASSERT_EQ(segments->size(), 1u);
 	EXPECT_NEAR((*segments)[0].dt_s, 0.03, 1e-15);
 	EXPECT_EQ((*segments)[0].v_left_m_s, 2);
-}
-
-TEST(WheelBuffer, InstantaneousSpeedsAreLinearBetweenStamps)
-{
-	const auto segments = rampWheels(6, WheelBuffer::Meaning::instantaneous).segments(kStart + 50 * kMs, kStart + 120 * kMs, 0.2);
-	ASSERT_TRUE(segments);
-	ASSERT_EQ(segments->size(), 2u);
-	EXPECT_NEAR((*segments)[0].v_left_m_s, 1.5, 1e-12);
-	EXPECT_NEAR((*segments)[1].v_left_m_s, 2.2, 1e-12);
-	EXPECT_NEAR((*segments)[1].v_right_m_s, 4.4, 1e-12);
-	EXPECT_NEAR((*segments)[1].dt_s, 0.02, 1e-15);
 }
 
 TEST(WheelBuffer, NothingOutsideOfTheSamplesOrOverAGap)

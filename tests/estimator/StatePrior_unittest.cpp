@@ -22,6 +22,21 @@ TEST(StatePrior, Jacobians)
 	                      test::sampleStates({BlockShape::euclidean(9)}, random));
 }
 
+TEST(StatePrior, CovarianceWhitens)
+{
+	test::Random random(33);
+	const std::vector<double> x0 = test::block(random.pose(0.8, 2));
+	Eigen::MatrixXd root(6, 6);
+	for (int i = 0; i < 6; ++i) root.col(i) = random.vector(6, 0.3);
+	const Eigen::MatrixXd covariance = root * root.transpose() + 1e-2 * Eigen::MatrixXd::Identity(6, 6);
+	const auto cost = StatePrior::fromCovariance(BlockShape::pose(), x0.data(), covariance);
+	const Eigen::VectorXd delta = random.vector(6, 0.2);
+	std::vector<double> x = x0;
+	blockPlus(BlockShape::pose(), x0.data(), delta.data(), x.data());
+	EXPECT_NEAR(test::residualAt(*cost, {x}).squaredNorm(), delta.dot(covariance.inverse() * delta), 1e-9);
+	test::expectJacobians("StatePrior, full covariance", *cost, test::sampleStates({BlockShape::pose()}, random));
+}
+
 TEST(StatePrior, InfiniteSigmasDropTheirRows)
 {
 	const Eigen::Vector3d x0(1, 2, 3), sigmas(0.5, std::numeric_limits<double>::infinity(), 0.1);

@@ -27,7 +27,7 @@ WheelSegment segmentOf(int i)
 Pose3 drive(WheelOdometry& odometry, const EstimatorOptions& options, const WheelIntrinsics& k, test::UnitErrors* errors)
 {
 	const WheelNoise& n = options.noise.wheels;
-	odometry.reset(Pose3());
+	odometry.reset(0, Pose3());
 	for (int i = 0; i < kSegments; i += kSegmentsAnInterval)
 	{
 		WheelPreintegration interval(n, k);
@@ -105,7 +105,7 @@ TEST(WheelOdometry, ResetForgets)
 	drive(odometry, options, {1, 1, 0.23}, nullptr);
 	EXPECT_GT(odometry.covariance().norm(), 0);
 	const Pose3 T(so3::expQuaternion({0, 0, 1}), Eigen::Vector3d(1, 2, 0));
-	odometry.reset(T);
+	odometry.reset(0, T);
 	EXPECT_EQ(odometry.T_WO().p, T.p);
 	EXPECT_EQ(odometry.covariance().norm(), 0);
 }

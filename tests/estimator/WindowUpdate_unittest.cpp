@@ -150,7 +150,7 @@ TEST(WindowUpdate, SlidingAgreesWithBatch)
 		FeatureFrame f;
 		f.t_ns = t_ns;
 		batch.push(f);
-		if (batch.window.frames.size() == 1) addStartPriors(batch.window, batch.window.latest(), 0.1, 0.01);
+		if (batch.window.frames.size() == 1) addStartPriors(batch.window, batch.window.latest(), 0.1);
 	}
 	for (int i = 0; i < 60; ++i) solveWindow(batch.window, 50);
 	for (int i = 0; i < 60; ++i) solveWindow(sliding.window, 50);
@@ -309,7 +309,7 @@ TEST(WindowUpdate, NoSensorTellsPositionAndHeading)
 		if (run.window.frames.size() == 1)
 		{
 			// As at a start, but nothing that knows where it is or in which direction it drives.
-			addStartPriors(run.window, run.window.latest(), 0.1, 0.01);
+			addStartPriors(run.window, run.window.latest(), 0.1);
 			auto& priors = run.window.start_priors;
 			const double* motion = run.window.latest().motion.data();
 			priors.erase(

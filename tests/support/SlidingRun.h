@@ -56,7 +56,7 @@ class SlidingRun
 	Fate step(const FeatureFrame& features, double state_noise = 0, int solves = 1)
 	{
 		push(features, state_noise);
-		if (window.frames.size() == 1) addStartPriors(window, window.latest(), 0.1, 0.01);
+		if (window.frames.size() == 1) addStartPriors(window, window.latest(), 0.1);
 		window.landmarks.triangulate(window.T_BC_pose());
 		for (int i = 0; i < solves; ++i) solveWindow(window, 20);
 		window.landmarks.assess(window.T_BC_pose());

@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "InitializerNoise.h"
 #include "StateOrder.h"
 
 namespace viwo
@@ -30,7 +29,7 @@ struct Inputs
 	const std::vector<ImuPreintegration>& imu;
 	const std::vector<WheelPreintegration>& wheels;
 	const Calibration& calibration;
-	const InitializerOptions& options;
+	const Belief& belief;
 
 	Index intervals() const { return static_cast<Index>(imu.size()); }
 	Eigen::Matrix3d phiJacobian(Index k) const
@@ -85,7 +84,7 @@ Rows weightedRows(const Inputs& in)
 		intrinsics.row(w) = wheel.intrinsicsJacobian().row(5);
 	}
 	if (m > 0)
-		rows.covariance += intrinsics * wheelIntrinsicsCovariance(in.wheels.front().intrinsics(), in.options) * intrinsics.transpose();
+		rows.covariance += intrinsics * in.belief.wheels_covariance * intrinsics.transpose();
 	return rows;
 }
 
@@ -123,9 +122,9 @@ void repropagateAll(std::vector<ImuPreintegration>& imu, const Eigen::Vector3d& 
 }  // namespace
 
 GyroBiasResult alignGyroBias(const SfmResult& sfm, std::vector<ImuPreintegration>& imu, const std::vector<WheelPreintegration>& wheels,
-                             const Calibration& calibration, const InitializerOptions& options)
+                             const Calibration& calibration, const Belief& belief, const InitializerOptions& options)
 {
-	const Inputs in{sfm, imu, wheels, calibration, options};
+	const Inputs in{sfm, imu, wheels, calibration, belief};
 	GyroBiasResult result;
 	Eigen::Vector3d b_g = imu.front().b_g();
 	repropagateAll(imu, b_g);

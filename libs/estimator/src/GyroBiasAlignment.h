@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "Belief.h"
 #include "ImuPreintegration.h"
 #include "WheelPreintegration.h"
 
@@ -30,5 +31,5 @@ struct GyroBiasResult
  *  @param wheels as many as imu, or none.
  */
 GyroBiasResult alignGyroBias(const SfmResult& sfm, std::vector<ImuPreintegration>& imu, const std::vector<WheelPreintegration>& wheels,
-                             const Calibration& calibration, const InitializerOptions& options);
+                             const Calibration& calibration, const Belief& belief, const InitializerOptions& options);
 }  // namespace viwo

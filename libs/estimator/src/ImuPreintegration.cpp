@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "RotatingIntegral.h"
+#include "Scalars.h"
 #include "StateOrder.h"
 
 namespace viwo
@@ -16,11 +17,6 @@ constexpr int kP = StateOrder::p, kPhi = StateOrder::phi, kV = StateOrder::v, kB
 static_assert(kP == 0 && kPhi == 3 && kV == 6 && kBias == 9 && StateOrder::b_g == 12, "motion first, biases last and adjacent");
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
-
-double square(double x)
-{
-	return x * x;
-}
 
 /** How an error at the start of a step or interval with this delta comes out at its end: the motion part of the transition. R: of the
  * start. */

@@ -56,16 +56,15 @@ InitializerResult Initializer::align(const SfmResult& sfm, std::vector<ImuPreint
                                      const std::vector<WheelPreintegration>& wheels) const
 {
 	InitializerResult result;
-	const std::vector<WheelPreintegration> used = options_.use_wheels ? wheels : std::vector<WheelPreintegration>();
-	const bool matches = !imu.empty() && sfm.T_c0_ck.size() == imu.size() + 1 && (used.empty() || used.size() == imu.size());
+	const bool matches = !imu.empty() && sfm.T_c0_ck.size() == imu.size() + 1 && (wheels.empty() || wheels.size() == imu.size());
 	if (sfm.status != SfmStatus::ok || !matches) return result;
 
-	result.gyro = alignGyroBias(sfm, imu, used, calibration_, options_);
+	result.gyro = alignGyroBias(sfm, imu, wheels, calibration_, belief_, options_);
 	result.status = InitializerStatus::bad_gyro_bias;
 	const bool plausible = result.gyro.b_g.norm() <= options_.max_gyro_bias_rad_s && result.gyro.chi2_per_dof <= options_.max_chi2_per_dof;
 	if (!plausible) return result;
 
-	result.alignment = alignScale(sfm, imu, used, calibration_, gravity_m_s2_, options_);
+	result.alignment = alignScale(sfm, imu, wheels, calibration_, belief_, gravity_m_s2_, options_);
 	result.status = statusOf(result.alignment.status);
 	return result;
 }
@@ -98,12 +97,4 @@ std::vector<NavState> Initializer::navStates(const InitializerResult& result, co
 	return states;
 }
 
-std::vector<SfmPoint> Initializer::landmarksInW(const SfmResult& sfm, const InitializerResult& result, size_t origin,
-                                                const Pose3& T_WO_origin) const
-{
-	const Pose3 T_WC0 = poseOfC0(result, origin, T_WO_origin);
-	std::vector<SfmPoint> points = sfm.points;
-	for (SfmPoint& point : points) point.p_c0 = T_WC0 * Eigen::Vector3d(result.alignment.scale * point.p_c0);
-	return points;
-}
 }  // namespace viwo

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "Belief.h"
 #include "GyroBiasAlignment.h"
 #include "ImuPreintegration.h"
 #include "ScaleAlignment.h"
@@ -39,13 +40,14 @@ struct InitializerResult
 class Initializer
 {
    public:
-	Initializer(const Calibration& calibration, double gravity_m_s2, const InitializerOptions& options)
-	    : calibration_(calibration), gravity_m_s2_(gravity_m_s2), options_(options)
+	/** @param calibration with the belief's T_BC. @param belief at whose biases and wheels the intervals are integrated. */
+	Initializer(const Calibration& calibration, const Belief& belief, double gravity_m_s2, const InitializerOptions& options)
+	    : calibration_(calibration), belief_(belief), gravity_m_s2_(gravity_m_s2), options_(options)
 	{
 	}
 
 	/** @param imu one an interval between the reconstruction's frames; left re-propagated at the gyroscope bias found.
-	 *  @param wheels the same, or empty; not used when options.use_wheels is off.
+	 *  @param wheels the same, or empty.
 	 */
 	InitializerResult align(const SfmResult& sfm, std::vector<ImuPreintegration>& imu,
 	                        const std::vector<WheelPreintegration>& wheels) const;
@@ -57,14 +59,11 @@ class Initializer
 	std::vector<NavState> navStates(const InitializerResult& result, const std::vector<ImuPreintegration>& imu, size_t origin,
 	                                const Pose3& T_WO_origin = {}) const;
 
-	/** Points of the reconstruction in the W of navStates(), m; `p_c0` holds p_W. */
-	std::vector<SfmPoint> landmarksInW(const SfmResult& sfm, const InitializerResult& result, size_t origin,
-	                                   const Pose3& T_WO_origin = {}) const;
-
    private:
 	Pose3 poseOfC0(const InitializerResult& result, size_t origin, const Pose3& T_WO_origin) const;
 
 	Calibration calibration_;
+	Belief belief_;
 	double gravity_m_s2_;
 	InitializerOptions options_;
 };

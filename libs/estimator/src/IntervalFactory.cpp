@@ -12,6 +12,12 @@ namespace
 constexpr double kGyroBiasMove_rad_s = 2e-3;
 constexpr double kAccBiasMove_m_s2 = 0.05;
 constexpr double kWheelMove = 2e-3;	 // relative
+
+void countOnce(bool is_gap, bool& in_gap, int& gaps)
+{
+	if (is_gap && !in_gap) ++gaps;
+	in_gap = is_gap;
+}
 }  // namespace
 
 IntervalFactory::IntervalFactory(const EstimatorOptions& options, const WheelIntrinsics& nominal) : options_(options), wheels_(nominal) {}
@@ -22,11 +28,8 @@ Interval IntervalFactory::between(const ImuBuffer& imu, const WheelBuffer& wheel
 	if (options_.useImu())
 	{
 		auto span = imu.span(t_begin_ns, t_end_ns, options_.window.max_imu_gap_s);
-		if (!span)
-		{
-			span = imu.span(t_begin_ns, t_end_ns, options_.window.reinitialize_after_gap_s);
-			++imu_gaps_;
-		}
+		countOnce(!span, in_imu_gap_, imu_gaps_);
+		if (!span) span = imu.span(t_begin_ns, t_end_ns, options_.window.reinitialize_after_gap_s);
 		if (span)
 		{
 			interval.imu = std::make_shared<ImuPreintegration>(options_.noise.imu, b_a_, b_g_);
@@ -36,13 +39,12 @@ Interval IntervalFactory::between(const ImuBuffer& imu, const WheelBuffer& wheel
 	if (options_.useWheels())
 	{
 		const auto segments = wheels.segments(t_begin_ns, t_end_ns, options_.window.max_wheel_gap_s);
+		countOnce(!segments, in_wheel_gap_, wheel_gaps_);
 		if (segments)
 		{
 			interval.wheels = std::make_shared<WheelPreintegration>(options_.noise.wheels, wheels_);
 			for (const WheelSegment& segment : *segments) interval.wheels->integrate(segment);
 		}
-		else
-			++wheel_gaps_;
 	}
 	return interval;
 }
@@ -63,6 +65,13 @@ void IntervalFactory::relinearize(Window& window)
 			frame->interval.wheels->repropagate(k);
 			frame->wheel_factor.reset();
 		}
+}
+
+void IntervalFactory::beginAt(const Belief& belief)
+{
+	b_a_ = belief.b_a;
+	b_g_ = belief.b_g;
+	wheels_ = belief.wheels;
 }
 
 void IntervalFactory::relinearizeAt(Window& window, const Eigen::Vector3d& b_a, const Eigen::Vector3d& b_g)

@@ -7,6 +7,7 @@
 
 namespace viwo
 {
+struct Belief;
 struct Window;
 
 /** Cuts the sample streams at frame times and preintegrates them. All intervals share one linearisation point (biases, wheel intrinsics), so that
@@ -18,16 +19,21 @@ class IntervalFactory
 	IntervalFactory(const EstimatorOptions& options, const WheelIntrinsics& nominal);
 
 	/** The motion between two frames. `imu` is null where the stream has a hole longer than reinitialize_after_gap_s, `wheels` where it has one
-	 *  longer than max_wheel_gap_s; shorter ones are bridged and counted.
+	 *  longer than max_wheel_gap_s; shorter ones are
+	 *  bridged. Each hole is counted once, however many intervals it spoils.
 	 */
 	Interval between(const ImuBuffer& imu, const WheelBuffer& wheels, int64_t t_begin_ns, int64_t t_end_ns);
 
 	/** Moves the linearisation point to the latest frame's estimate where it has drifted from it, with all intervals of the window. */
 	void relinearize(Window& window);
 
-	/** Sets the point without looking at drift (start of a window). */
+	/** Sets the biases of the point without looking at drift (start of a window). */
 	void relinearizeAt(Window& window, const Eigen::Vector3d& b_a, const Eigen::Vector3d& b_g);
 
+	/** Sets the point for intervals to come. */
+	void beginAt(const Belief& belief);
+
+	/** Holes longer than max_imu_gap_s and max_wheel_gap_s. */
 	int imuGaps() const { return imu_gaps_; }
 	int wheelGaps() const { return wheel_gaps_; }
 
@@ -35,6 +41,7 @@ class IntervalFactory
 	EstimatorOptions options_;
 	Eigen::Vector3d b_a_ = Eigen::Vector3d::Zero(), b_g_ = Eigen::Vector3d::Zero();
 	WheelIntrinsics wheels_;
+	bool in_imu_gap_ = false, in_wheel_gap_ = false;
 	int imu_gaps_ = 0, wheel_gaps_ = 0;
 };
 }  // namespace viwo

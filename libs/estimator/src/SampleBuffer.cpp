@@ -95,24 +95,6 @@ std::optional<std::vector<ImuSample>> ImuBuffer::span(int64_t t_begin_ns, int64_
 	return result;
 }
 
-ImuSample ImuBuffer::mean(int64_t t_begin_ns, int64_t t_end_ns) const
-{
-	if (samples_.empty()) return {};
-	const int64_t from_ns = std::max(t_begin_ns, samples_.front().t_ns), to_ns = std::min(t_end_ns, samples_.back().t_ns);
-	if (from_ns > to_ns) return {};
-	if (from_ns == to_ns) return at(from_ns);
-	const std::vector<ImuSample> covered = *span(from_ns, to_ns, std::numeric_limits<double>::infinity());
-	ImuSample sum;
-	for (size_t i = 1; i < covered.size(); ++i)
-	{
-		const double half_dt_s = 0.5 * secondsBetween(covered[i - 1].t_ns, covered[i].t_ns);
-		sum.acc_m_s2 += half_dt_s * (covered[i - 1].acc_m_s2 + covered[i].acc_m_s2);
-		sum.gyro_rad_s += half_dt_s * (covered[i - 1].gyro_rad_s + covered[i].gyro_rad_s);
-	}
-	const double dt_s = secondsBetween(from_ns, to_ns);
-	return {from_ns, sum.acc_m_s2 / dt_s, sum.gyro_rad_s / dt_s};
-}
-
 bool WheelBuffer::add(const WheelSample& sample)
 {
 	return appendLater(samples_, sample);
@@ -133,16 +115,6 @@ int64_t WheelBuffer::latest_ns() const
 	return latestStamp(samples_);
 }
 
-WheelSegment WheelBuffer::piece(const WheelSample& before, const WheelSample& after, int64_t t_begin_ns, int64_t t_end_ns) const
-{
-	const double dt_s = secondsBetween(t_begin_ns, t_end_ns);
-	if (meaning_ == Meaning::mean_over_past_interval) return {dt_s, after.v_left_m_s, after.v_right_m_s};
-	// The mean of a linear signal is its value half way.
-	const double since_before_ns = 0.5 * (static_cast<double>(t_begin_ns - before.t_ns) + static_cast<double>(t_end_ns - before.t_ns));
-	const double u = fraction(before.t_ns, after.t_ns, since_before_ns);
-	return {dt_s, (1 - u) * before.v_left_m_s + u * after.v_left_m_s, (1 - u) * before.v_right_m_s + u * after.v_right_m_s};
-}
-
 std::optional<std::vector<WheelSegment>> WheelBuffer::segments(int64_t t_begin_ns, int64_t t_end_ns, double max_gap_s) const
 {
 	if (t_begin_ns >= t_end_ns || !covers(t_begin_ns) || !covers(t_end_ns)) return std::nullopt;
@@ -151,7 +123,8 @@ std::optional<std::vector<WheelSegment>> WheelBuffer::segments(int64_t t_begin_n
 	{
 		const WheelSample &before = samples_[i - 1], &after = samples_[i];
 		if (secondsBetween(before.t_ns, after.t_ns) > max_gap_s) return std::nullopt;
-		result.push_back(piece(before, after, std::max(before.t_ns, t_begin_ns), std::min(after.t_ns, t_end_ns)));
+		const double dt_s = secondsBetween(std::max(before.t_ns, t_begin_ns), std::min(after.t_ns, t_end_ns));
+		result.push_back({dt_s, after.v_left_m_s, after.v_right_m_s});
 		if (after.t_ns >= t_end_ns) break;
 	}
 	return result;

@@ -35,31 +35,16 @@ class ImuBuffer
 	/** Smallest int64_t when empty. */
 	int64_t latest_ns() const;
 
-	/** Mean over time of the part of [t_begin_ns, t_end_ns] that is covered; zero when none is. B's axes; rad/s, m/s^2 (raw: biases,
-	 * gravity in it). */
-	Eigen::Vector3d meanGyro(int64_t t_begin_ns, int64_t t_end_ns) const { return mean(t_begin_ns, t_end_ns).gyro_rad_s; }
-	Eigen::Vector3d meanAcc(int64_t t_begin_ns, int64_t t_end_ns) const { return mean(t_begin_ns, t_end_ns).acc_m_s2; }
-
    private:
 	ImuSample at(int64_t t_ns) const;
-	ImuSample mean(int64_t t_begin_ns, int64_t t_end_ns) const;
 
 	std::deque<ImuSample> samples_;
 };
 
-/** Wheel samples in order of time, cut at image times on request. */
+/** Wheel samples in order of time, cut at image times on request. Their speeds are means since the sample before. */
 class WheelBuffer
 {
    public:
-	/** What the speeds of a sample are. */
-	enum class Meaning
-	{
-		mean_over_past_interval,  //!< travel since the sample before, over the time since then (encoder ticks)
-		instantaneous             //!< speed at the stamp; linear between stamps
-	};
-
-	explicit WheelBuffer(Meaning meaning = Meaning::mean_over_past_interval) : meaning_(meaning) {}
-
 	/** @return false, and the sample is not taken, where it is not later than the latest. */
 	bool add(const WheelSample& sample);
 
@@ -79,9 +64,6 @@ class WheelBuffer
 	int64_t latest_ns() const;
 
    private:
-	WheelSegment piece(const WheelSample& before, const WheelSample& after, int64_t t_begin_ns, int64_t t_end_ns) const;
-
-	Meaning meaning_;
 	std::deque<WheelSample> samples_;
 };
 }  // namespace viwo

@@ -134,12 +134,12 @@ ScaleStatus judge(const ScaleResult& result, bool has_wheels, const InitializerO
 }  // namespace
 
 ScaleResult alignScale(const SfmResult& sfm, const std::vector<ImuPreintegration>& imu, const std::vector<WheelPreintegration>& wheels,
-                       const Calibration& calibration, double gravity_m_s2, const InitializerOptions& options)
+                       const Calibration& calibration, const Belief& belief, double gravity_m_s2, const InitializerOptions& options)
 {
 	Iterate at;
 	at.T_c0_ck = sfm.T_c0_ck;
 	at.vision_correction = Eigen::VectorXd::Zero(sfm.interval_covariance.rows());
-	const ScaleAlignmentRows rows(at.T_c0_ck, imu, wheels, calibration, options);
+	const ScaleAlignmentRows rows(at.T_c0_ck, imu, wheels, calibration, belief);
 	ScaleResult result;
 	at.g_c0 = startingGravity(rows, calibration, !wheels.empty(), gravity_m_s2, options);
 	result.status = ScaleStatus::bad_gravity;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "Belief.h"
 #include "ImuPreintegration.h"
 #include "WheelPreintegration.h"
 
@@ -55,5 +56,5 @@ struct ScaleResult
  *  @param imu propagated at the window's gyroscope bias. @param wheels as many as imu, or none.
  */
 ScaleResult alignScale(const SfmResult& sfm, const std::vector<ImuPreintegration>& imu, const std::vector<WheelPreintegration>& wheels,
-                       const Calibration& calibration, double gravity_m_s2, const InitializerOptions& options);
+                       const Calibration& calibration, const Belief& belief, double gravity_m_s2, const InitializerOptions& options);
 }  // namespace viwo

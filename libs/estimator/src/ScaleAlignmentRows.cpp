@@ -2,18 +2,17 @@
 
 #include <viwo/core/So3.h>
 
-#include "InitializerNoise.h"
 #include "StateOrder.h"
 
 namespace viwo
 {
 ScaleAlignmentRows::ScaleAlignmentRows(const std::vector<Pose3>& T_c0_ck, const std::vector<ImuPreintegration>& imu,
                                        const std::vector<WheelPreintegration>& wheels, const Calibration& calibration,
-                                       const InitializerOptions& options)
+                                       const Belief& belief)
     : T_c0_ck_(T_c0_ck),
       imu_(imu),
       wheels_(wheels),
-      options_(options),
+      belief_(belief),
       n_(static_cast<Index>(imu.size())),
       rows_per_interval_(wheels.empty() ? 6 : 9),
       R_BC_(calibration.T_BC().R.toRotationMatrix()),
@@ -110,8 +109,8 @@ Eigen::MatrixXd ScaleAlignmentRows::sensorCovariance() const
 		S.block<3, 3>(i + 6, i + 6) += R_BO_ * wheel.covariance().topLeftCorner<3, 3>() * R_BO_.transpose();
 		J_wheels.middleRows<3>(i + 6) = R_BO_ * wheel.intrinsicsJacobian().topRows<3>();
 	}
-	S += options_.acc_bias_sigma_m_s2 * options_.acc_bias_sigma_m_s2 * J_b_a * J_b_a.transpose();
-	if (!wheels_.empty()) S += J_wheels * wheelIntrinsicsCovariance(wheels_.front().intrinsics(), options_) * J_wheels.transpose();
+	S += J_b_a * belief_.bias_covariance.topLeftCorner<3, 3>() * J_b_a.transpose();
+	if (!wheels_.empty()) S += J_wheels * belief_.wheels_covariance * J_wheels.transpose();
 	return S;
 }
 

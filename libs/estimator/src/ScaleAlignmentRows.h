@@ -14,7 +14,7 @@ class ScaleAlignmentRows
 	using Index = Eigen::Index;
 
 	ScaleAlignmentRows(const std::vector<Pose3>& T_c0_ck, const std::vector<ImuPreintegration>& imu,
-	                   const std::vector<WheelPreintegration>& wheels, const Calibration& calibration, const InitializerOptions& options);
+	                   const std::vector<WheelPreintegration>& wheels, const Calibration& calibration, const Belief& belief);
 
 	Index intervals() const { return n_; }
 	Index rows() const { return n_ * rows_per_interval_; }
@@ -42,7 +42,7 @@ class ScaleAlignmentRows
 	const std::vector<Pose3>& T_c0_ck_;
 	const std::vector<ImuPreintegration>& imu_;
 	const std::vector<WheelPreintegration>& wheels_;
-	const InitializerOptions& options_;
+	const Belief& belief_;
 	Index n_, rows_per_interval_;
 	Eigen::Matrix3d R_BC_, R_BO_;
 	Eigen::Vector3d p_BC_, p_BO_;

@@ -56,21 +56,21 @@ bool startFromVision(Window& w, IntervalFactory& intervals, const Pose3& T_WO_la
 		imu.push_back(*frame.interval.imu);
 		all_wheels = all_wheels && frame.interval.wheels;
 	}
-	InitializerOptions options = w.options.initializer;
-	options.use_wheels = options.use_wheels && all_wheels;
-	for (size_t i = 1; i < w.frames.size() && options.use_wheels; ++i) wheels.push_back(*w.frames[i]->interval.wheels);
+	for (size_t i = 1; i < w.frames.size() && all_wheels; ++i) wheels.push_back(*w.frames[i]->interval.wheels);
 
 	const SfmResult sfm = StructureFromMotion(sfmOptions(w)).reconstruct(features, gyroRotations(w));
 	if (sfm.status != SfmStatus::ok) return false;
-	const Initializer initializer(w.calibration, w.options.noise.gravity_m_s2, options);
+	Calibration calibration = w.calibration;
+	calibration.T_OC = calibration.T_OB * w.belief.T_BC;
+	const Initializer initializer(calibration, w.belief, w.options.noise.gravity_m_s2, w.options.initializer);
 	const InitializerResult aligned = initializer.align(sfm, imu, wheels);
 	if (aligned.status != InitializerStatus::ok) return false;
 
 	const std::vector<NavState> states = initializer.navStates(aligned, imu, w.frames.size() - 1, T_WO_latest);
 	applyStates(w, states);
-	intervals.relinearizeAt(w, Eigen::Vector3d::Zero(), aligned.gyro.b_g);
+	intervals.relinearizeAt(w, w.belief.b_a, aligned.gyro.b_g);
 	const double velocity_sigma_m_s = std::max(w.options.priors.velocity_m_s, kVelocityShare * states.front().v_WB.norm());
-	addStartPriors(w, w.latest(), velocity_sigma_m_s, w.options.priors.gyro_bias_rad_s);
+	addStartPriors(w, w.latest(), velocity_sigma_m_s);
 	return true;
 }
 }  // namespace viwo

@@ -1,6 +1,7 @@
 #include "WheelGates.h"
 
 #include "ImuPreintegration.h"
+#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "Window.h"
 
@@ -32,8 +33,6 @@ constexpr double kSettling_s = 0.5;
 /** and after this time its standing is looked at afresh, as tracks drift by themselves. */
 constexpr double kStandstillMemory_s = 3;
 constexpr double kCreepingTrackSigmas = 1;
-
-double square(double x) { return x * x; }
 
 /** Median movement of the tracks that both frames have, rad; nothing where they are few. */
 std::optional<double> medianMovement(const FeatureFrame& before, const FeatureFrame& after)

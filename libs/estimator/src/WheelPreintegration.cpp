@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "RotatingIntegral.h"
+#include "Scalars.h"
 
 namespace viwo
 {
@@ -16,11 +17,6 @@ constexpr int kP = 0, kPhi = 3;
 constexpr int kForward = 0, kLateral = 1, kVertical = 2, kRoll = 3, kPitch = 4, kYaw = 5;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-double square(double x)
-{
-	return x * x;
-}
 
 /** How an error at the start of a step or interval with this delta comes out at its end (Niu et al. Eq. 7: A). R: of the start. */
 Matrix6 transition(const Eigen::Matrix3d& R, const Eigen::Vector3d& dp, const Eigen::Matrix3d& dR)

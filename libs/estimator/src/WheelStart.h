@@ -13,6 +13,8 @@ class IntervalFactory;
  */
 bool startFromWheels(Window& window, IntervalFactory& intervals, const Pose3& T_WO_latest);
 
-/** The priors that every start puts on the window: gauge on `gauge`, motion of the oldest frame, calibration, floor. */
-void addStartPriors(Window& window, Frame& gauge, double velocity_sigma_m_s, double gyro_bias_sigma_rad_s);
+/** The priors that every start puts on the window: gauge on `gauge`, velocity of the oldest frame, its biases and the calibration by the window's
+ *  belief, floor.
+ */
+void addStartPriors(Window& window, Frame& gauge, double velocity_sigma_m_s);
 }  // namespace viwo

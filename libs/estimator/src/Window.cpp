@@ -1,6 +1,7 @@
 #include "Window.h"
 
 #include "ImuPreintegration.h"
+#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/ImuResidual.h"
@@ -20,7 +21,6 @@ namespace viwo
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 /** Where the plane and standstill factors give way, in sigma: a ramp or a bump, or a push, is not to bend the window. */
 constexpr double kFloorGate = 3;
 
@@ -123,14 +123,18 @@ void takeFirstEstimates(const Window& w, std::vector<Factor>& factors)
 }
 }  // namespace
 
-Window::Window(const EstimatorOptions& o, const Calibration& c) : options(o), calibration(c), landmarks(landmarkSettings(o, c.camera)) { clear(); }
-
-void Window::clear()
+Window::Window(const EstimatorOptions& o, const Calibration& c) : options(o), calibration(c), landmarks(landmarkSettings(o, c.camera))
 {
+	clear(nominalBelief(o, c));
+}
+
+void Window::clear(const Belief& before)
+{
+	belief = before;
 	frames.clear();
 	landmarks.clear();
-	poseToBlock(calibration.T_BC(), T_BC.data());
-	wheels = {calibration.wheels.k_left, calibration.wheels.k_right, calibration.wheels.track_m};
+	poseToBlock(belief.T_BC, T_BC.data());
+	wheels = {belief.wheels.k_left, belief.wheels.k_right, belief.wheels.track_m};
 	planes = {};
 	current_plane = 0;
 	start_priors.clear();

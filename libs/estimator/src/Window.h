@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Belief.h"
 #include "Frame.h"
 #include "LandmarkMap.h"
 #include "Marginalizer.h"
@@ -21,11 +22,12 @@ struct Window
 {
 	Window(const EstimatorOptions& options, const Calibration& calibration);
 
-	/** Back to the state after construction: no frame, nominal calibration. */
-	void clear();
+	/** No frame any more; calibration as this belief has it. */
+	void clear(const Belief& belief);
 
 	EstimatorOptions options;
 	Calibration calibration;
+	Belief belief;	//!< from before the first frame
 
 	std::deque<std::unique_ptr<Frame>> frames;	//!< oldest first; addresses of the states are stable
 	LandmarkMap landmarks;

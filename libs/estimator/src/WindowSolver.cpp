@@ -95,31 +95,86 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	const ScopedQuietLog quiet;
 	ceres::Solve(options, &problem, &summary);
 	copies.writeBack();
-	return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size()), summary.initial_cost, summary.final_cost};
+	return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size())};
+}
+
+bool marginalCovariance(Window& window, const std::vector<double*>& wanted, Eigen::MatrixXd& covariance)
+{
+	Marginalizer marginalizer;
+	std::unordered_set<const double*> known(wanted.begin(), wanted.end());
+	std::unordered_map<const double*, Eigen::Index> size;  // looked up only, never walked through
+	for (const Factor& factor : collectFactors(window))
+	{
+		marginalizer.add(factor);
+		for (size_t i = 0; i < factor.blocks.size(); ++i)
+		{
+			size[factor.blocks[i]] = factor.cost->shapes()[i].tangent;
+			if (known.insert(factor.blocks[i]).second) marginalizer.eliminate(factor.blocks[i]);
+		}
+	}
+	std::vector<double*> order;
+	Eigen::MatrixXd information;
+	if (!marginalizer.remainingInformation(order, information) || order.size() != wanted.size()) return false;
+	const Eigen::LLT<Eigen::MatrixXd> llt(information);
+	if (llt.info() != Eigen::Success) return false;
+	const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+
+	// From the order in which the factors named the blocks to the one asked for.
+	std::unordered_map<const double*, Eigen::Index> place;
+	Eigen::Index next = 0;
+	for (const double* block : order)
+	{
+		place[block] = next;
+		next += size[block];
+	}
+	covariance.resize(inverse.rows(), inverse.cols());
+	Eigen::Index row = 0;
+	for (const double* a : wanted)
+	{
+		Eigen::Index column = 0;
+		for (const double* b : wanted)
+		{
+			covariance.block(row, column, size[a], size[b]) = inverse.block(place[a], place[b], size[a], size[b]);
+			column += size[b];
+		}
+		row += size[a];
+	}
+	return true;
 }
 
 bool latestCovariance(Window& window, Eigen::Matrix<double, 15, 15>& covariance)
 {
-	Marginalizer marginalizer;
-	const double* const pose = window.latest().pose.data();
-	const double* const motion = window.latest().motion.data();
-	std::unordered_set<const double*> known{pose, motion};
-	for (const Factor& factor : collectFactors(window))
-	{
-		marginalizer.add(factor);
-		for (double* block : factor.blocks)
-			if (known.insert(block).second) marginalizer.eliminate(block);
-	}
-	std::vector<double*> blocks;
-	Eigen::MatrixXd information;
-	if (!marginalizer.remainingInformation(blocks, information) || information.cols() != StateOrder::size) return false;
-	const Eigen::LLT<Eigen::MatrixXd> llt(information);
-	if (llt.info() != Eigen::Success) return false;
-	const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(StateOrder::size, StateOrder::size));
-	covariance = inverse;
-	if (blocks.front() == pose) return true;
-	// The factors named the motion block first.
-	covariance << inverse.bottomRightCorner<6, 6>(), inverse.bottomLeftCorner<6, 9>(), inverse.topRightCorner<9, 6>(), inverse.topLeftCorner<9, 9>();
+	Eigen::MatrixXd marginal;
+	if (!marginalCovariance(window, {window.latest().pose.data(), window.latest().motion.data()}, marginal)) return false;
+	covariance = marginal;
 	return true;
+}
+
+Belief learnedBelief(Window& window)
+{
+	Belief learned = window.belief;
+	std::vector<double*> blocks{window.latest().motion.data()};
+	if (window.options.useCamera()) blocks.push_back(window.T_BC.data());
+	if (window.options.useWheelFactor()) blocks.push_back(window.wheels.data());
+	Eigen::MatrixXd covariance;
+	if (!marginalCovariance(window, blocks, covariance)) return learned;
+
+	const NavState state = window.latest().state();
+	learned.found_ns = state.t_ns;
+	learned.b_a = state.b_a;
+	learned.b_g = state.b_g;
+	constexpr Eigen::Index biases = StateOrder::b_a - StateOrder::v, motion_size = StateOrder::size - StateOrder::v;
+	learned.bias_covariance = covariance.block<6, 6>(biases, biases);
+	if (window.options.useCamera())
+	{
+		learned.T_BC = window.T_BC_pose();
+		learned.T_BC_covariance = covariance.block<6, 6>(motion_size, motion_size);
+	}
+	if (window.options.useWheelFactor())
+	{
+		learned.wheels = window.wheelIntrinsics();
+		learned.wheels_covariance = covariance.bottomRightCorner<3, 3>();
+	}
+	return learned;
 }
 }  // namespace viwo

@@ -10,14 +10,21 @@ struct SolveReport
 {
 	bool usable = false;
 	int iterations = 0;
-	double initial_cost = 0, final_cost = 0;
 };
 
 /** Minimises the sum of all factors (paper Eq. 15) over all states of the window. One thread, capped iterations: repeatable. */
 SolveReport solveWindow(Window& window, int max_iterations);
 
-/** Covariance (15x15, StateOrder) of the latest frame, in the window's gauge: inverse of the information matrix of all factors at the present states.
+/** Covariance (tangents) of some blocks of the window, in their order: inverse of the information matrix of all factors at the present states.
+ *  @return false when no factor speaks of one of them, or the matrix is not positive definite.
+ */
+bool marginalCovariance(Window& window, const std::vector<double*>& blocks, Eigen::MatrixXd& covariance);
+
+/** Covariance (15x15, StateOrder) of the latest frame, in the window's gauge.
  *  @return false when the matrix is not positive definite.
  */
 bool latestCovariance(Window& window, Eigen::Matrix<double, 15, 15>& covariance);
+
+/** What the window has found out about biases and calibration: what a window that follows it begins with. */
+Belief learnedBelief(Window& window);
 }  // namespace viwo

@@ -1,6 +1,7 @@
 #include "WindowUpdate.h"
 
 #include "ImuPreintegration.h"
+#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/LinearPrior.h"
@@ -15,7 +16,6 @@ namespace viwo
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 /** VINS-Mono states its parallax threshold at this focal length. */
 constexpr double kReferenceFocal_px = 460;
 /** Without images, frames are kept at this spacing. */

@@ -34,6 +34,17 @@ class ImuResidual : public LocalCost
 	const Whitening& whiteningFactor() const { return whiten_; }
 
    private:
+	using Vector15 = Eigen::Matrix<double, 15, 1>;
+	/** What residual and Jacobians share. */
+	struct Terms
+	{
+		Eigen::Matrix3d R_BiW, R_BjBi;
+		Eigen::Vector3d travel, speed_change;  //!< by the states, in B_i
+		Eigen::Vector3d theta;	//!< correction of gamma
+	};
+	/** @param r the residual before whitening. */
+	Terms evaluate(double const* const* x, Vector15& r) const;
+
 	ImuDelta delta_;
 	ImuPreintegration::BiasJacobian bias_jacobian_;
 	Eigen::Vector3d b_a_, b_g_;

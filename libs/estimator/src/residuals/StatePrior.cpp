@@ -4,6 +4,7 @@
 
 #include <viwo/core/So3.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace viwo
@@ -23,6 +24,18 @@ Eigen::MatrixXd finiteWeights(const Eigen::VectorXd& sigmas)
 StatePrior::StatePrior(const BlockShape& shape, const double* x0, const Eigen::VectorXd& sigmas)
     : LocalCost(static_cast<int>(sigmas.array().isFinite().count()), {shape}), x0_(x0, x0 + shape.ambient), weights_(finiteWeights(sigmas))
 {
+}
+
+StatePrior::StatePrior(const BlockShape& shape, const double* x0, const Eigen::MatrixXd& weights, int rows)
+    : LocalCost(rows, {shape}), x0_(x0, x0 + shape.ambient), weights_(weights)
+{
+}
+
+std::shared_ptr<StatePrior> StatePrior::fromCovariance(const BlockShape& shape, const double* x0, const Eigen::MatrixXd& covariance)
+{
+	const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+	const Eigen::MatrixXd weights = llt.matrixL().solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+	return std::shared_ptr<StatePrior>(new StatePrior(shape, x0, weights, static_cast<int>(weights.rows())));
 }
 
 bool StatePrior::evaluateLocal(double const* const* x, double* residuals, double** jacobians) const

@@ -17,11 +17,11 @@ namespace viwo
 {
 enum class Status
 {
-	waiting,  //!< nothing to work with yet
-	initialising,  //!< gathering data for the first pose
+	waiting,  //!< nothing to work with yet, or without the IMU nothing that carries on: no pose
+	initialising,  //!< gathering data for the first pose, or for a new start: no pose
 	from_wheels,  //!< poses from wheels and IMU; landmarks are not known well enough yet
 	tracking,  //!< camera, IMU and (unless mode vio) wheels
-	dead_reckoning	//!< camera lost: IMU and wheels carry on
+	dead_reckoning	//!< camera lost: IMU and wheels carry on; or IMU or window lost: the wheels carry on
 };
 
 const char* toString(Status status);
@@ -42,7 +42,8 @@ struct FrameEstimate
 	Status status = Status::waiting;
 	NavState state;	 //!< of B in W
 	Pose3 T_WO;
-	/** Of T_WO relative to the first pose: position in W's axes (m), rotation vector in O's axes (rad, right perturbation): x y z roll pitch yaw. */
+	/** Of T_WO relative to the first pose, over new starts too: position in W's axes (m), rotation vector in O's axes (rad, right perturbation): x y z roll
+	 *  pitch yaw. */
 	Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 	bool slip = false;
 	bool standing = false;
@@ -62,9 +63,9 @@ struct EstimatorCounters
 	int frames = 0;
 	int keyframes = 0;
 	int slip_events = 0;
-	int reinitializations = 0;
+	int reinitializations = 0;	//!< windows lost
 	int standstills = 0;
-	int imu_gaps = 0;
+	int imu_gaps = 0;  //!< holes in the stream, however many frames they spoil
 	int wheel_gaps = 0;
 };
 
@@ -95,7 +96,7 @@ class Estimator
 	bool addWheels(const WheelSample& sample);
 
 	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. One that is not
-	 *  later than the last is ignored, and one to which a short hole in the IMU stream does not let the IMU reach is passed over: no pose.
+	 *  later than the last is ignored. Where the IMU does not reach it, the wheels alone give its pose, and without wheels there is none.
 	 */
 	FrameEstimate addFrame(const FeatureFrame& frame);
 

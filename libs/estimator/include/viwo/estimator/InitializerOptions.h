@@ -19,16 +19,11 @@ enum class GravityStart
 	vehicle_up       //!< z of O: level ground
 };
 
-/** Alignment of the vision-only reconstruction with IMU and wheels. */
+/** Alignment of the vision-only reconstruction with IMU and wheels; whether those take part is FactorOptions::wheels_in_initialization. */
 struct InitializerOptions : Options<InitializerOptions>
 {
-	bool use_wheels = true;
 	GyroBiasMethod gyro_bias = GyroBiasMethod::weighted;
 	GravityStart gravity_start = GravityStart::specific_force;
-
-	double acc_bias_sigma_m_s2 = 0.1;
-	double wheel_scale_sigma = 0.01;
-	double track_sigma = 0.01;
 
 	double max_gyro_bias_rad_s = 0.1;
 	double max_chi2_per_dof = 6;
@@ -38,15 +33,11 @@ struct InitializerOptions : Options<InitializerOptions>
 	template <class Visitor>
 	void visit(Visitor& v)
 	{
-		v("use_wheels", use_wheels, "wheels take part in gyroscope bias, scale and velocities");
 		v.choice("gyro_bias", gyro_bias, "both by their information, or the plain mean of vision's and the wheels' estimates",
 		         {"weighted", "paper_mean"});
 		v.choice("gravity_start", gravity_start,
 		         "the vertical at the start: mean specific force (any mounting) or the vehicle's z axis (level ground)",
 		         {"specific_force", "vehicle_up"});
-		v("acc_bias_sigma_m_s2", acc_bias_sigma_m_s2, "accelerometer bias to reckon with, m/s^2", 0.0, 10.0);
-		v("wheel_scale_sigma", wheel_scale_sigma, "relative error of each wheel's radius to reckon with", 0.0, 1.0);
-		v("track_sigma", track_sigma, "relative error of the wheels' distance to reckon with", 0.0, 1.0);
 		v("max_gyro_bias_rad_s", max_gyro_bias_rad_s, "a larger gyroscope bias is not believed, rad/s", 0.0, 10.0);
 		v("max_chi2_per_dof", max_chi2_per_dof, "misfit of an alignment, at most", 0.1, 1e6);
 		v("max_scale_sigma", max_scale_sigma, "relative standard deviation of the scale, at most", 1e-4, 10.0);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cmath>
+
+namespace viwo
+{
+constexpr double kDegree = M_PI / 180;
+
+inline double square(double x) { return x * x; }
+}  // namespace viwo
