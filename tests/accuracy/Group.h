@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <viwo/experiments/Runner.h>
 #include "Results.h"
-#include "Runner.h"
 
 namespace viwo::accuracy
 {
+using namespace experiments;
+
 /** What holds for all rows. */
 struct Settings
 {

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <viwo/experiments/Runner.h>
+
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "Runner.h"
+#include "StandardDrives.h"
 
 namespace viwo::accuracy
 {
+using namespace experiments;
+
 /** What the bars on accuracy compare: one run's error. */
 struct Score
 {

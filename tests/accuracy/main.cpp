@@ -90,7 +90,8 @@ int measure(const Arguments& a)
 	std::filesystem::create_directories(a.output);
 	Runner runner(std::filesystem::absolute(a.output).string(), a.programs);
 	for (const auto& group : groups) group->plan(runner);
-	runner.execute(a.jobs);
+	const auto tell = [](const JobReport& report) { std::fprintf(stderr, "%s\n", toLine(report).c_str()); };
+	runner.execute(a.jobs, {app::interrupted, tell});
 
 	Results results;
 	for (const auto& group : groups)

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "SimulationCache.h"
+#include <viwo/experiments/SimulationCache.h>
 #include "TestLogs.h"
 
 using namespace viwo;
@@ -11,11 +11,12 @@ namespace
 {
 int makeTestLogs()
 {
-	const accuracy::SimulationCache cache(testing::testLogFolder(), VIWO_BINARY_DIR "/bin");
-	accuracy::JobPool pool;
+	const experiments::SimulationCache cache(testing::testLogFolder(), VIWO_BINARY_DIR "/bin");
+	experiments::JobPool pool;
 	std::vector<size_t> jobs;
-	for (const accuracy::LogRecipe& recipe : testing::testLogRecipes()) jobs.push_back(pool.add(cache.job(recipe)));
-	pool.run(2);
+	for (const experiments::LogRecipe& recipe : testing::testLogRecipes()) jobs.push_back(pool.add(cache.job(recipe)));
+	pool.run(2, {app::interrupted,
+	             [](const experiments::JobReport& report) { std::fprintf(stderr, "%s\n", experiments::toLine(report).c_str()); }});
 	for (const size_t job : jobs)
 		if (!pool.error(job).empty()) throw Error(pool.error(job));
 	return 0;

@@ -3,18 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "Scenario.h"
+#include <viwo/experiments/Recipes.h>
 
 /** The simulated logs of the end-to-end tests: one seed each, as short as they may be. */
 namespace viwo::testing
 {
 /** 24 s: straight on, two turns on the spot, straight on. */
-accuracy::SimulatedDrive corridorTestDrive();
+experiments::SimulatedDrive corridorTestDrive();
 /** 20 s of a constant arc, in motion from the first sample on. */
-accuracy::SimulatedDrive lobbyTestDrive();
+experiments::SimulatedDrive lobbyTestDrive();
 
 /** Recipes of all. */
-std::vector<accuracy::LogRecipe> testLogRecipes();
+std::vector<experiments::LogRecipe> testLogRecipes();
 
 /** Folder in which they are kept. */
 std::string testLogFolder();
@@ -24,5 +24,5 @@ struct TestLog
 	std::string rawlog, ground_truth;
 };
 /** @throws Error when it has not been made: viwo_test_logs does. */
-TestLog testLog(const accuracy::SimulatedDrive& drive);
+TestLog testLog(const experiments::SimulatedDrive& drive);
 }  // namespace viwo::testing

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <viwo/core/Error.h>
+#include <viwo/core/SharedFiles.h>
 
 #include <CLI/CLI.hpp>
 
@@ -34,10 +35,7 @@ bool quiet();
 /** Version of viwo, "0.1.0". */
 std::string version();
 
-/** Full path of a file or folder of share/viwo, e.g. "config_files/viwo-odometry/default.ini": under $VIWO_SHARE, then beside the installed
- *  program (../share/viwo), then in the source tree that the program was built from. @throws Error that names the places looked at.
- */
-std::string findShare(const std::string& relative);
+using viwo::findShare;
 
 /** "[####......]  42%  00:12 left  <note>" on a terminal's stderr, at most ten times a second; nothing in a pipe or when quiet. */
 class ProgressBar

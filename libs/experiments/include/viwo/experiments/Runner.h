@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "JobPool.h"
-#include "Scenario.h"
-#include "SimulationCache.h"
+#include <viwo/experiments/JobPool.h>
+#include <viwo/experiments/Recipes.h>
+#include <viwo/experiments/SimulationCache.h>
 
-namespace viwo::accuracy
+namespace viwo::experiments
 {
 /** What a run of viwo-odometry left behind. */
 struct Outcome
@@ -34,14 +34,21 @@ struct Outcome
 class Runner
 {
    public:
-	/** @param folder for logs, runs and results. @param programs folder of the programs. */
+	/** @param folder for logs (cache/), runs (runs/) and results. @param programs folder of the programs. */
 	Runner(std::string folder, std::string programs);
+
+	/** Another folder for the logs than <folder>/cache. */
+	void keepLogsIn(const std::string& folder) { cache_ = SimulationCache(folder, programs_); }
+
+	/** Runs that are whole are not done again while their log, configuration and program are the same.
+	 *  @param program tells one build of viwo-odometry from another. */
+	void keepRuns(const std::string& program) { program_ = program; }
 
 	/** Asks for a run; one that was asked for before is done once. */
 	void want(const RunRecipe& recipe);
 
 	/** @throws Error when interrupted. */
-	void execute(size_t parallel);
+	void execute(size_t parallel, const JobHooks& hooks);
 
 	/** @pre wanted and executed. */
 	Outcome outcome(const RunRecipe& recipe) const;
@@ -50,12 +57,14 @@ class Runner
 	/** Index of the job that makes the log; added on the first call. */
 	size_t logJob(const LogRecipe& recipe);
 	Job runJob(const RunRecipe& recipe, size_t log_job) const;
+	std::string contentOf(const RunRecipe& recipe) const;
 	std::string folderOf(const RunRecipe& recipe) const { return folder_ + "/runs/" + recipe.name(); }
 
 	std::string folder_, programs_;
+	std::string program_;  //!< empty: every run is done
 	SimulationCache cache_;
 	JobPool pool_;
 	std::map<std::string, size_t> logs_;  //!< jobs by the path of the log
 	std::map<std::string, size_t> runs_;  //!< jobs by the name of the run
 };
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

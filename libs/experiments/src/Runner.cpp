@@ -1,17 +1,22 @@
-#include "Runner.h"
+#include <viwo/experiments/Runner.h>
 
 #include <mrpt/config/CConfigFileMemory.h>
-#include <viwo/app/Program.h>
+#include <viwo/core/Error.h>
+#include <viwo/core/SharedFiles.h>
 #include <viwo/odometry/OdometryOptions.h>
 
 #include <algorithm>
 #include <filesystem>
 
-namespace viwo::accuracy
+#include "TextFiles.h"
+
+namespace viwo::experiments
 {
 namespace
 {
 namespace fs = std::filesystem;
+
+const std::string kConfigFolder = "config_files/viwo-odometry/";
 
 void overrule(OdometryOptions& options, const std::string& word)
 {
@@ -32,7 +37,7 @@ void overrule(OdometryOptions& options, const std::string& word)
 void writeConfig(const RunRecipe& recipe, const std::string& path)
 {
 	OdometryOptions options;
-	if (!recipe.config.empty()) options.load(app::findShare("config_files/viwo-odometry/" + recipe.config));
+	if (!recipe.config.empty()) options.load(findShare(kConfigFolder + recipe.config));
 	for (const std::string& word : recipe.overrides) overrule(options, word);
 	saveOptions(path, options.sections());
 }
@@ -75,15 +80,26 @@ void Runner::want(const RunRecipe& recipe)
 	runs_[recipe.name()] = pool_.add(runJob(recipe, logJob(recipe.log)));
 }
 
+std::string Runner::contentOf(const RunRecipe& recipe) const
+{
+	std::string text = "program " + program_ + "\nmode " + recipe.mode + "\nfrom " + std::to_string(recipe.from_s) + " to " +
+	                   std::to_string(recipe.to_s) + "\nconfiguration " + recipe.config + "\n";
+	if (!recipe.config.empty()) text += readFile(findShare(kConfigFolder + recipe.config));
+	for (const std::string& word : recipe.overrides) text += word + "\n";
+	return text + "---- log\n" + recipe.log.program + "\n" + recipe.log.content;
+}
+
 Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
 {
-	const std::string folder = folderOf(recipe), config = folder + "/given.ini";
-	const bool needs_config = !recipe.config.empty() || !recipe.overrides.empty();
+	const std::string folder = folderOf(recipe), config = folder + "/given.ini", inputs = folder + "/inputs.txt";
+	const bool needs_config = !recipe.config.empty() || !recipe.overrides.empty(), keep = !program_.empty();
+	const std::string content = keep ? contentOf(recipe) : "";
 	Job job;
 	job.label = "run " + recipe.name();
 	job.after = {log_job};
-	job.prepare = [recipe, folder, config, needs_config]
+	job.prepare = [=]
 	{
+		if (keep && fs::exists(inputs) && readFile(inputs) == content) return false;
 		fs::remove_all(folder);
 		fs::create_directories(folder);
 		if (needs_config) writeConfig(recipe, config);
@@ -91,19 +107,23 @@ Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
 	};
 	job.command = {programs_ + "/viwo-odometry", "-i", cache_.rawlog(recipe.log), "-o", folder, "--mode", recipe.mode};
 	if (needs_config) job.command.insert(job.command.end(), {"-c", config});
+	if (recipe.from_s > 0) job.command.insert(job.command.end(), {"--from", std::to_string(recipe.from_s)});
+	if (recipe.to_s > 0) job.command.insert(job.command.end(), {"--to", std::to_string(recipe.to_s)});
 	job.log_stem = folder + "/program";
+	if (keep) job.succeeded = [=] { writeFile(inputs, content); };
 	job.alone = recipe.alone || recipe.loaded;
 	job.loaded = recipe.loaded;
+	job.cost_s = recipe.cost_s;
 	return job;
 }
 
-void Runner::execute(size_t parallel)
+void Runner::execute(size_t parallel, const JobHooks& hooks)
 {
-	pool_.run(std::max<size_t>(1, parallel));
+	pool_.run(std::max<size_t>(1, parallel), hooks);
 }
 
 Outcome Runner::outcome(const RunRecipe& recipe) const
 {
 	return {pool_.error(runs_.at(recipe.name())), folderOf(recipe), cache_.groundTruth(recipe.log)};
 }
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace viwo::accuracy
+namespace viwo::experiments
 {
 /** A rawlog with its truth, and how it is made. */
 struct LogRecipe
@@ -18,6 +18,7 @@ struct LogRecipe
 	bool cached = true;                  //!< false: made anew every time
 	/** A log that has the same images; they are taken from there. */
 	std::shared_ptr<const LogRecipe> same_images;
+	double cost_s = 1;  //!< about how long it takes
 };
 
 /** A drive that is simulated. */
@@ -38,15 +39,6 @@ struct SimulatedDrive
 	std::string rigPath() const;
 };
 
-/** Ninety seconds down a corridor and back, with a turn on the spot. */
-SimulatedDrive corridorDrive();
-/** Ninety seconds on a circle of 1 m radius. */
-SimulatedDrive lobbyDrive();
-
-/** @param layout kitti or euroc. */
-LogRecipe importedLog(const std::string& name, const std::string& layout, const std::string& folder,
-                      const std::vector<std::string>& options);
-
 /** A run of viwo-odometry on a log. */
 struct RunRecipe
 {
@@ -57,9 +49,12 @@ struct RunRecipe
 	std::string variant;                 //!< told apart from other runs of that mode on that log
 	std::vector<std::string> overrides;  //!< section.key=value of the configuration
 	std::string config;                  //!< a file of share/viwo/config_files/viwo-odometry; empty: the default
+	double from_s = 0;                   //!< of the log, from its first stamp
+	double to_s = 0;                     //!< 0: to its end
+	double cost_s = 1;                   //!< about how long it takes
 	bool alone = false;                  //!< nothing else runs meanwhile
 	bool loaded = false;                 //!< all other cores are busy meanwhile
 
 	std::string name() const { return log.name + "-" + mode + (variant.empty() ? "" : "-" + variant); }
 };
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

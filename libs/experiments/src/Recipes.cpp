@@ -1,24 +1,18 @@
-#include "Scenario.h"
+#include <viwo/experiments/Recipes.h>
 
-#include <viwo/app/Program.h>
+#include <viwo/core/Error.h>
+#include <viwo/core/SharedFiles.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
-namespace viwo::accuracy
+#include "TextFiles.h"
+
+namespace viwo::experiments
 {
 namespace
 {
 /** To be raised when the simulator makes other logs of the same inputs. */
 constexpr const char* kSimulatorVersion = "1";
-
-std::string contentOf(const std::string& path)
-{
-	std::ifstream file(path, std::ios::binary);
-	if (!file) throw Error(path + ": cannot be read");
-	return {std::istreambuf_iterator<char>(file), {}};
-}
 }  // namespace
 
 SimulatedDrive SimulatedDrive::with(const std::string& what, const std::vector<std::string>& more) const
@@ -34,15 +28,15 @@ SimulatedDrive SimulatedDrive::with(const std::string& what, const std::vector<s
 
 std::string SimulatedDrive::worldPath() const
 {
-	return app::findShare("worlds/" + world + ".ini");
+	return findShare("worlds/" + world + ".ini");
 }
 std::string SimulatedDrive::routePath() const
 {
-	return app::findShare("routes/" + route + ".ini");
+	return findShare("routes/" + route + ".ini");
 }
 std::string SimulatedDrive::rigPath() const
 {
-	return app::findShare("rigs/" + rig + ".ini");
+	return findShare("rigs/" + rig + ".ini");
 }
 
 LogRecipe SimulatedDrive::log(uint64_t seed) const
@@ -59,30 +53,7 @@ LogRecipe SimulatedDrive::log(uint64_t seed) const
 		recipe.content += word + "\n";
 	}
 	if (same_images) recipe.same_images = std::make_shared<const LogRecipe>(same_images->log(seed));
-	for (const std::string& path : {worldPath(), routePath(), rigPath()}) recipe.content += "----\n" + contentOf(path);
+	for (const std::string& path : {worldPath(), routePath(), rigPath()}) recipe.content += "----\n" + readFile(path);
 	return recipe;
 }
-
-// Scans are not what is measured: without them logs are made and read faster.
-SimulatedDrive corridorDrive()
-{
-	return {"corridor", "corridor", "corridor_out_and_back", {"lidar.enabled=false"}};
-}
-SimulatedDrive lobbyDrive()
-{
-	return {"lobby", "lobby", "lobby_arc", {"lidar.enabled=false"}};
-}
-
-LogRecipe importedLog(const std::string& name, const std::string& layout, const std::string& folder,
-                      const std::vector<std::string>& options)
-{
-	LogRecipe recipe;
-	recipe.name = name;
-	recipe.program = "viwo-import";
-	recipe.arguments = {layout, folder};
-	recipe.arguments.insert(recipe.arguments.end(), options.begin(), options.end());
-	for (const std::string& word : recipe.arguments) recipe.content += word + "\n";
-	recipe.cached = false;
-	return recipe;
-}
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace viwo::accuracy
+namespace viwo::experiments
 {
 /** A program to run. */
 struct Job
@@ -19,6 +19,28 @@ struct Job
 	std::function<void()> succeeded;
 	bool alone = false;   //!< nothing else runs beside it
 	bool loaded = false;  //!< alone, while every other core is kept busy
+	double cost_s = 1;    //!< about how long it takes: for the time that is left
+};
+
+/** How far a pool has come, told when a job ends. */
+struct JobReport
+{
+	std::string label, error;  //!< of the job that has ended; no error: it succeeded
+	double took_s = 0;         //!< 0: there was nothing to do
+	size_t done = 0, total = 0;
+	double elapsed_s = 0;
+	double fraction = 0;  //!< of the cost that is done
+	double left_s = -1;   //!< negative while nothing has been done that tells
+};
+
+/** "[3/40] 01:20, 12:30 left  run seq05-s1-viwo (31.2 s)". */
+std::string toLine(const JobReport& report);
+
+/** Hooks of a pool's run; each may be empty. */
+struct JobHooks
+{
+	std::function<bool()> interrupted;
+	std::function<void(const JobReport&)> ended;
 };
 
 /** Runs programs side by side, each as soon as those it waits for are done; the order of what is equally due is that of adding. */
@@ -28,10 +50,10 @@ class JobPool
 	/** @return the job's index. */
 	size_t add(Job job);
 
-	/** Runs all jobs, at most `parallel` at a time, one line on stderr for each that ends. A job that fails fails those after it too.
+	/** Runs all jobs, at most `parallel` at a time. A job that fails fails those after it too.
 	 *  @throws Error when interrupted; programs that run are ended first.
 	 */
-	void run(size_t parallel);
+	void run(size_t parallel, const JobHooks& hooks);
 
 	/** Why a job failed, one line; empty for one that succeeded. */
 	const std::string& error(size_t index) const { return entries_[index].error; }
@@ -60,14 +82,15 @@ class JobPool
 	size_t running() const;
 	bool allDone() const;
 	void stopAll();
-	void report(const Entry& entry);
+	void report(const Entry& entry) const;
 
 	std::vector<Entry> entries_;
 	std::vector<int> load_;  //!< processes that keep the other cores busy
-	size_t reported_ = 0;
+	JobHooks hooks_;
+	size_t ended_ = 0;
 	double begin_s_ = 0;
 };
 
 /** Last line of what a program wrote to stderr; empty when it wrote nothing. */
 std::string lastLine(const std::string& path);
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

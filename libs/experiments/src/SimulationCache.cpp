@@ -1,13 +1,10 @@
-#include "SimulationCache.h"
+#include <viwo/experiments/SimulationCache.h>
 
-#include <viwo/core/AtomicFile.h>
-
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-namespace viwo::accuracy
+#include "TextFiles.h"
+
+namespace viwo::experiments
 {
 namespace
 {
@@ -15,27 +12,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kContentFile = "/inputs.txt";
 
-/** FNV-1a, 64 bit. */
-std::string hashOf(const std::string& text)
-{
-	uint64_t hash = 0xcbf29ce484222325ULL;
-	for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-	char word[20];
-	std::snprintf(word, sizeof word, "%016llx", static_cast<unsigned long long>(hash));
-	return word;
-}
-
 bool holds(const std::string& folder, const std::string& content)
 {
-	std::ifstream file(folder + kContentFile, std::ios::binary);
-	return file && std::string(std::istreambuf_iterator<char>(file), {}) == content;
-}
-
-void writeContent(const std::string& folder, const std::string& content)
-{
-	AtomicFile file(folder + kContentFile);
-	file.stream() << content;
-	file.commit();
+	const std::string path = folder + kContentFile;
+	return fs::exists(path) && readFile(path) == content;
 }
 }  // namespace
 
@@ -64,11 +44,12 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 	if (recipe.same_images) job.command.insert(job.command.end(), {"--images-from", folderOf(*recipe.same_images) + "/log_Images"});
 	job.command.insert(job.command.end(), {"-o", making + "/log.rawlog"});
 	job.log_stem = making + "/program";
+	job.cost_s = recipe.cost_s;
 	job.succeeded = [recipe, folder, making]
 	{
-		writeContent(making, recipe.content);
+		writeFile(making + kContentFile, recipe.content);
 		fs::rename(making, folder);
 	};
 	return job;
 }
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

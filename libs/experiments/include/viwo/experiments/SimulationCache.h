@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "JobPool.h"
-#include "Scenario.h"
+#include <viwo/experiments/JobPool.h>
+#include <viwo/experiments/Recipes.h>
 
-namespace viwo::accuracy
+namespace viwo::experiments
 {
 /** Where logs are made and kept: a folder each, named by what it was made from. One that is being made has another name, so that what is
  *  there under its own is whole, however the program ended the last time.
@@ -27,4 +27,4 @@ class SimulationCache
 
 	std::string folder_, programs_;
 };
-}  // namespace viwo::accuracy
+}  // namespace viwo::experiments

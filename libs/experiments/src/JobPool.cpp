@@ -1,11 +1,10 @@
-#include "JobPool.h"
-
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <viwo/app/Program.h>
+#include <viwo/core/Error.h>
+#include <viwo/experiments/JobPool.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +12,7 @@
 #include <fstream>
 #include <thread>
 
-namespace viwo::accuracy
+namespace viwo::experiments
 {
 namespace
 {
@@ -82,14 +81,15 @@ size_t JobPool::add(Job job)
 	return entries_.size() - 1;
 }
 
-void JobPool::run(size_t parallel)
+void JobPool::run(size_t parallel, const JobHooks& hooks)
 {
+	hooks_ = hooks;
 	begin_s_ = now_s();
 	try
 	{
 		while (!allDone())
 		{
-			if (app::interrupted()) throw Error("interrupted; simulated logs that are finished are kept for the next time");
+			if (hooks_.interrupted && hooks_.interrupted()) throw Error("interrupted; what is finished is kept for the next time");
 			startDue(parallel);
 			collect();
 			std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -179,7 +179,7 @@ void JobPool::end(Entry& entry, const std::string& error)
 	load_.clear();
 	entry.error = error;
 	entry.state = State::done;
-	++reported_;
+	++ended_;
 	report(entry);
 }
 
@@ -204,11 +204,42 @@ void JobPool::stopAll()
 	}
 }
 
-void JobPool::report(const Entry& entry)
+void JobPool::report(const Entry& entry) const
 {
-	const int elapsed_s = static_cast<int>(now_s() - begin_s_);
-	const double took_s = entry.begin_s > 0 ? now_s() - entry.begin_s : 0;
-	std::fprintf(stderr, "[%zu/%zu] %02d:%02d  %s (%.1f s)%s%s\n", reported_, entries_.size(), elapsed_s / 60, elapsed_s % 60,
-	             entry.job.label.c_str(), took_s, entry.error.empty() ? "" : "  FAILED: ", entry.error.c_str());
+	if (!hooks_.ended) return;
+	double all_s = 0, done_s = 0, worked_s = 0;
+	for (const Entry& e : entries_)
+	{
+		all_s += e.job.cost_s;
+		if (e.state != State::done) continue;
+		done_s += e.job.cost_s;
+		if (e.begin_s > 0) worked_s += e.job.cost_s;
+	}
+	JobReport report;
+	report.label = entry.job.label;
+	report.error = entry.error;
+	report.took_s = entry.begin_s > 0 ? now_s() - entry.begin_s : 0;
+	report.done = ended_;
+	report.total = entries_.size();
+	report.elapsed_s = now_s() - begin_s_;
+	report.fraction = all_s > 0 ? done_s / all_s : 1;
+	if (worked_s > 0) report.left_s = report.elapsed_s / worked_s * (all_s - done_s);
+	hooks_.ended(report);
 }
-}  // namespace viwo::accuracy
+
+std::string toLine(const JobReport& report)
+{
+	const auto clock = [](double seconds)
+	{
+		const int whole_s = static_cast<int>(seconds);
+		char text[32];
+		std::snprintf(text, sizeof text, "%02d:%02d", whole_s / 60, whole_s % 60);
+		return std::string(text);
+	};
+	char took[32];
+	std::snprintf(took, sizeof took, " (%.1f s)", report.took_s);
+	return "[" + std::to_string(report.done) + "/" + std::to_string(report.total) + "] " + clock(report.elapsed_s) +
+	       (report.left_s >= 0 ? ", " + clock(report.left_s) + " left" : "") + "  " + report.label + took +
+	       (report.error.empty() ? "" : "  FAILED: " + report.error);
+}
+}  // namespace viwo::experiments

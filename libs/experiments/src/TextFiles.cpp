@@ -1,0 +1,33 @@
+#include "TextFiles.h"
+
+#include <viwo/core/AtomicFile.h>
+#include <viwo/core/Error.h>
+
+#include <cstdio>
+#include <iterator>
+
+namespace viwo::experiments
+{
+std::string readFile(const std::string& path)
+{
+	std::ifstream file(path, std::ios::binary);
+	if (!file) throw Error(path + ": cannot be read");
+	return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeFile(const std::string& path, const std::string& content)
+{
+	AtomicFile file(path);
+	file.stream() << content;
+	file.commit();
+}
+
+std::string hashOf(const std::string& content)
+{
+	uint64_t hash = 0xcbf29ce484222325ULL;
+	for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+	char word[20];
+	std::snprintf(word, sizeof word, "%016llx", static_cast<unsigned long long>(hash));
+	return word;
+}
+}  // namespace viwo::experiments
