@@ -1,7 +1,9 @@
 #include <viwo/app/Program.h>
+#include <viwo/core/AtomicFile.h>
 #include <viwo/evaluation/PlotSvg.h>
 #include <viwo/evaluation/Report.h>
 #include <viwo/evaluation/Table.h>
+#include <viwo/evaluation/TrajectoryPictures.h>
 
 #include <cmath>
 #include <cstdio>
@@ -22,6 +24,7 @@ struct Arguments
 	std::string alignment = "se3";
 	std::string json;
 	std::string svg;
+	std::string html;
 	bool allow_missing = false;
 	bool nees = false;
 	std::vector<std::string> covariances;
@@ -40,6 +43,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_flag("--allow-missing", a.allow_missing, "An estimate whose file is not there is a row without figures (and over every limit)");
 	cli.add_option("--json", a.json, "Write the figures to this file too");
 	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file");
+	cli.add_option("--html", a.html, "Write figures and pictures as one page to this file: no script, no network, light and dark");
 	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
 	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
 	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(CLI::NonNegativeNumber);
@@ -52,6 +56,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    "Examples:\n"
 	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum\n"
 	    "  viwo-evaluate -r truth.tum -e wheel/trajectory.tum -e viwo/trajectory.tum --json errors.json --svg paths.svg\n"
+	    "  viwo-evaluate -r truth.tum -e a/trajectory.tum -e b/trajectory.tum --html report.html\n"
 	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum --max-ate 0.05 --min-coverage 0.97 --nees\n"
 	    "Exit status: 0 done, 1 failed or over a limit, 2 bad usage.");
 }
@@ -102,6 +107,19 @@ std::string alignmentTitle(AlignmentKind kind)
 	return kind == AlignmentKind::none ? "as they are" : std::string("aligned (") + toString(kind) + ")";
 }
 
+/** Estimates that are not there have a row in the table and no curve. */
+void writeHtml(const Arguments& a, const Trajectory& reference, const std::vector<EstimateReport>& reports)
+{
+	std::vector<NamedTrajectory> estimates;
+	const std::vector<std::string> names = legendNames(a.estimates);
+	for (size_t i = 0; i < a.estimates.size(); ++i)
+		if (std::filesystem::exists(a.estimates[i])) estimates.push_back({names[i], Trajectory::loadTum(a.estimates[i])});
+	AtomicFile file(a.html);
+	file.stream() << evaluationHtml(a.reference, a.options, reports,
+	                                trajectoryPictures(reference, estimates, a.options, PlotColours::page));
+	file.commit();
+}
+
 /** One line for each limit that is not kept. */
 bool withinLimits(const Arguments& a, const std::vector<EstimateReport>& reports)
 {
@@ -146,6 +164,7 @@ int evaluateAll(Arguments& a)
 	std::cout << toTable(reports, a.options) << std::flush;
 	if (!a.json.empty()) saveJson(a.json, toJson(a.reference, a.options, reports));
 	if (!a.svg.empty()) saveSvg(a.svg, curves, "Trajectories from above, " + alignmentTitle(a.options.alignment));
+	if (!a.html.empty()) writeHtml(a, reference, reports);
 	return withinLimits(a, reports) ? 0 : 1;
 }
 }  // namespace

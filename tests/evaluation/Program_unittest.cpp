@@ -81,6 +81,19 @@ TEST_F(EvaluateProgram, DrawsTheAlignedPaths)
 	EXPECT_NE(failed.err.find("/nowhere"), std::string::npos) << failed.err;
 }
 
+TEST_F(EvaluateProgram, WritesAPage)
+{
+	const ProgramResult result = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("none.tum"),
+	                                  "--allow-missing", "--html", folder_.file("report.html")});
+	EXPECT_EQ(result.status, 0) << result.err;
+	const std::string html = readFile(folder_.file("report.html"));
+	size_t pictures = 0;
+	for (size_t at = html.find("<svg"); at != std::string::npos; at = html.find("<svg", at + 1)) ++pictures;
+	EXPECT_EQ(pictures, 3u) << "paths, error over time, drift over distance";
+	for (const char* part : {"moved.tum", "none.tum", "ATE x-y-z", "Drift", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--html", "/nowhere/x.html"}).status, 1);
+}
+
 TEST_F(EvaluateProgram, MissingEstimateIsARowWithoutFigures)
 {
 	const std::vector<std::string> arguments{"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("none.tum"),

@@ -3,11 +3,12 @@
 #include <viwo/evaluation/Table.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
+
+#include "Svg.h"
 
 namespace viwo
 {
@@ -15,60 +16,10 @@ namespace
 {
 // Layout, in user units (pixels at 100 %).
 constexpr double kLongSide = 640, kShortestSide = 200;
-constexpr double kLeft = 56, kRight = 16, kTop = 36, kAxisHeight = 44, kLegendLine = 20;
-constexpr double kLegendColumn = 24, kCharacter = 7.2;
+constexpr double kLeft = 56, kRight = 16, kTop = 36, kAxisHeight = 44;
 /** Points closer together than this on the paper are one. */
 constexpr double kResolution = 0.4;
 constexpr int kGridLines = 8;
-
-constexpr const char* kReferenceColour = "#9aa0a6";
-/** Okabe and Ito's palette: told apart by the colour-blind, too. */
-constexpr std::array<const char*, 6> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string number(double value)
-{
-	return fixed(value, 1);
-}
-
-std::string escaped(const std::string& text)
-{
-	std::string result;
-	for (const char c : text) switch (c)
-		{
-			case '&':
-				result += "&amp;";
-				break;
-			case '<':
-				result += "&lt;";
-				break;
-			case '>':
-				result += "&gt;";
-				break;
-			case '"':
-				result += "&quot;";
-				break;
-			default:
-				result += c;
-		}
-	return result;
-}
-
-/** 1, 2 or 5 times a power of ten: the smallest such step with which `span` needs at most `most` lines. */
-double niceStep(double span, int most)
-{
-	const double least = span / most;
-	const double decade = std::pow(10.0, std::floor(std::log10(least)));
-	for (const double factor : {1.0, 2.0, 5.0})
-		if (factor * decade >= least * (1 - 1e-9)) return factor * decade;
-	return 10 * decade;
-}
-
-/** Metres as a grid of this step needs them. */
-std::string metres(double value, double step)
-{
-	const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-	return fixed(std::abs(value) < 1e-9 * step ? 0.0 : value, decimals);
-}
 
 /** Where metres fall on the paper. */
 class Paper
@@ -108,58 +59,45 @@ class Paper
 	double scale_ = 1, step_m_ = 1;
 };
 
-std::string text(double x, double y, const std::string& content, const std::string& attributes = {})
-{
-	return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\"" + (attributes.empty() ? "" : " " + attributes) + ">" + escaped(content) +
-	       "</text>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2)
-{
-	return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) + "\"/>\n";
-}
-
-std::string grid(const Paper& paper)
+std::string grid(const Paper& paper, const SvgPalette& c)
 {
 	const double step = paper.step_m();
 	const double bottom = kTop + paper.height(), right = kLeft + paper.width();
-	std::string lines = "<g stroke=\"#e3e6ea\" stroke-width=\"1\">\n", labels = "<g fill=\"#5f6368\" font-size=\"12\">\n";
+	std::string lines = "<g stroke=\"" + c.grid + "\" stroke-width=\"1\">\n", labels = "<g fill=\"" + c.muted + "\" font-size=\"12\">\n";
 	for (double k = std::ceil(paper.low_m().x() / step); k * step <= paper.high_m().x(); k += 1)
 	{
-		lines += line(paper.x(k * step), kTop, paper.x(k * step), bottom);
-		labels += text(paper.x(k * step), bottom + 16, metres(k * step, step), "text-anchor=\"middle\"");
+		lines += svgLine(paper.x(k * step), kTop, paper.x(k * step), bottom);
+		labels += svgText(paper.x(k * step), bottom + 16, onGrid(k * step, step), "text-anchor=\"middle\"");
 	}
 	for (double k = std::ceil(paper.low_m().y() / step); k * step <= paper.high_m().y(); k += 1)
 	{
-		lines += line(kLeft, paper.y(k * step), right, paper.y(k * step));
-		labels += text(kLeft - 6, paper.y(k * step) + 4, metres(k * step, step), "text-anchor=\"end\"");
+		lines += svgLine(kLeft, paper.y(k * step), right, paper.y(k * step));
+		labels += svgText(kLeft - 6, paper.y(k * step) + 4, onGrid(k * step, step), "text-anchor=\"end\"");
 	}
-	labels += text(kLeft + paper.width() / 2, bottom + 34, "x (m)", "text-anchor=\"middle\"");
+	labels += svgText(kLeft + paper.width() / 2, bottom + 34, "x (m)", "text-anchor=\"middle\"");
 	labels +=
-	    "<text transform=\"translate(14 " + number(kTop + paper.height() / 2) + ") rotate(-90)\" text-anchor=\"middle\">y (m)</text>\n";
-	return lines + "</g>\n" + labels + "</g>\n<rect x=\"" + number(kLeft) + "\" y=\"" + number(kTop) + "\" width=\"" +
-	       number(paper.width()) + "\" height=\"" + number(paper.height()) + "\" fill=\"none\" stroke=\"#9aa0a6\"/>\n";
+	    "<text transform=\"translate(14 " + svgNumber(kTop + paper.height() / 2) + ") rotate(-90)\" text-anchor=\"middle\">y (m)</text>\n";
+	return lines + "</g>\n" + labels + "</g>\n<rect x=\"" + svgNumber(kLeft) + "\" y=\"" + svgNumber(kTop) + "\" width=\"" +
+	       svgNumber(paper.width()) + "\" height=\"" + svgNumber(paper.height()) + "\" fill=\"none\" stroke=\"" + c.reference + "\"/>\n";
 }
 
 /** A bar one step of the grid long, in the plot's lower right corner. */
-std::string scaleBar(const Paper& paper)
+std::string scaleBar(const Paper& paper, const SvgPalette& c)
 {
 	const double length = paper.scale() * paper.step_m();
 	const double right = kLeft + paper.width() - 12, y = kTop + paper.height() - 12;
-	return "<g stroke=\"#202124\" stroke-width=\"2\">\n" + line(right - length, y, right, y) +
-	       line(right - length, y - 4, right - length, y + 4) + line(right, y - 4, right, y + 4) + "</g>\n" +
-	       text(right - length / 2, y - 7, metres(paper.step_m(), paper.step_m()) + " m",
-	            "text-anchor=\"middle\" fill=\"#202124\" font-size=\"12\"");
+	return "<g stroke=\"" + c.ink + "\" stroke-width=\"2\">\n" + svgLine(right - length, y, right, y) +
+	       svgLine(right - length, y - 4, right - length, y + 4) + svgLine(right, y - 4, right, y + 4) + "</g>\n" +
+	       svgText(right - length / 2, y - 7, onGrid(paper.step_m(), paper.step_m()) + " m",
+	               "text-anchor=\"middle\" fill=\"" + c.ink + "\" font-size=\"12\"");
 }
 
-std::string style(size_t index)
+std::string style(size_t index, const SvgPalette& c)
 {
-	if (index == 0) return std::string("stroke=\"") + kReferenceColour + "\" stroke-width=\"5\"";
-	const std::string dashes = (index - 1) / kColours.size() % 2 == 0 ? "" : " stroke-dasharray=\"6 3\"";
-	return std::string("stroke=\"") + kColours[(index - 1) % kColours.size()] + "\" stroke-width=\"1.8\"" + dashes;
+	return index == 0 ? "stroke=\"" + c.reference + "\" stroke-width=\"5\"" : svgCurveStyle(index - 1, c);
 }
 
-std::string path(const Paper& paper, const PlotCurve& curve, size_t index)
+std::string path(const Paper& paper, const PlotCurve& curve, size_t index, const SvgPalette& c)
 {
 	std::string points;
 	Eigen::Vector2d last = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -168,37 +106,16 @@ std::string path(const Paper& paper, const PlotCurve& curve, size_t index)
 		const Eigen::Vector2d p(paper.x(curve.points_m[i].x()), paper.y(curve.points_m[i].y()));
 		const bool is_last = i + 1 == curve.points_m.size();
 		if (!is_last && (p - last).norm() < kResolution) continue;
-		points += (points.empty() ? "" : " ") + number(p.x()) + "," + number(p.y());
+		points += (points.empty() ? "" : " ") + svgNumber(p.x()) + "," + svgNumber(p.y());
 		last = p;
 	}
 	if (points.empty()) return {};
 	std::string result =
-	    "<polyline fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" " + style(index) + " points=\"" + points + "\"/>\n";
+	    "<polyline fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" " + style(index, c) + " points=\"" + points + "\"/>\n";
 	if (index > 0) return result;
 	const Eigen::Vector2d start(paper.x(curve.points_m.front().x()), paper.y(curve.points_m.front().y()));
-	return result + "<circle cx=\"" + number(start.x()) + "\" cy=\"" + number(start.y()) +
-	       "\" r=\"5\" fill=\"#ffffff\" stroke=\"#202124\"/>\n";
-}
-
-/** Lines of the legend from `top` on, as many names in a line as go in; returns where it ends. */
-double legend(const std::vector<PlotCurve>& curves, double top, double width, std::string& svg)
-{
-	double x = kLeft, y = top;
-	svg += "<g font-size=\"13\" fill=\"#202124\">\n";
-	for (size_t i = 0; i < curves.size(); ++i)
-	{
-		const double needed = kLegendColumn + 22 + kCharacter * static_cast<double>(curves[i].name.size());
-		if (x > kLeft && x + needed > kLeft + width)
-		{
-			x = kLeft;
-			y += kLegendLine;
-		}
-		svg += "<g " + style(i) + ">" + line(x, y - 4, x + kLegendColumn, y - 4) + "</g>\n";
-		svg += text(x + kLegendColumn + 6, y, curves[i].name);
-		x += needed;
-	}
-	svg += "</g>\n";
-	return y;
+	return result + "<circle cx=\"" + svgNumber(start.x()) + "\" cy=\"" + svgNumber(start.y()) + "\" r=\"5\" fill=\"" + c.background +
+	       "\" stroke=\"" + c.ink + "\"/>\n";
 }
 }  // namespace
 
@@ -232,17 +149,17 @@ std::vector<std::string> legendNames(const std::vector<std::string>& paths)
 	return std::set<std::string>(files.begin(), files.end()).size() == paths.size() ? files : paths;
 }
 
-std::string toSvg(const std::vector<PlotCurve>& curves, const std::string& title)
+std::string toSvg(const std::vector<PlotCurve>& curves, const std::string& title, PlotColours colours)
 {
+	const SvgPalette& c = colours == PlotColours::page ? pagePalette() : lightPalette();
 	const Paper paper(curves);
-	std::string body = grid(paper);
-	for (size_t i = 0; i < curves.size(); ++i) body += path(paper, curves[i], i);
-	body += scaleBar(paper);
-	const double legend_end = legend(curves, kTop + paper.height() + kAxisHeight + 14, paper.width(), body);
-	const std::string width = number(kLeft + paper.width() + kRight), height = number(legend_end + 14);
-	return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " +
-	       height + "\" font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" +
-	       text(kLeft, 23, title, "font-size=\"15\" fill=\"#202124\"") + body + "</svg>\n";
+	std::string body = grid(paper, c);
+	for (size_t i = 0; i < curves.size(); ++i) body += path(paper, curves[i], i, c);
+	body += scaleBar(paper, c);
+	std::vector<SvgLegendEntry> entries;
+	for (size_t i = 0; i < curves.size(); ++i) entries.push_back({curves[i].name, style(i, c)});
+	const double legend_end = svgLegend(entries, kLeft, kTop + paper.height() + kAxisHeight + 14, paper.width(), c, body);
+	return svgPicture(kLeft + paper.width() + kRight, legend_end + 14, title, kLeft, c, body);
 }
 
 void saveSvg(const std::string& path, const std::vector<PlotCurve>& curves, const std::string& title)

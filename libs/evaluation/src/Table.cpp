@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "Svg.h"
+
 namespace viwo
 {
 namespace
@@ -40,10 +42,11 @@ std::string escaped(const std::string& text)
 
 Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-void Table::addRow(std::vector<std::string> cells)
+void Table::addRow(std::vector<std::string> cells, std::set<size_t> bold)
 {
 	if (cells.size() != columns_.size()) throw std::invalid_argument("a row needs as many cells as the table has columns");
 	rows_.push_back(std::move(cells));
+	bold_.push_back(std::move(bold));
 }
 
 std::string Table::toText() const
@@ -77,13 +80,59 @@ std::string Table::toMarkdown() const
 		rule += column.left ? "---|" : "---:|";
 	}
 	std::string text = header + "\n" + rule + "\n";
-	for (const auto& row : rows_)
+	for (size_t r = 0; r < rows_.size(); ++r)
 	{
 		text += "|";
-		for (const std::string& cell : row) text += " " + escaped(cell) + " |";
+		for (size_t i = 0; i < rows_[r].size(); ++i)
+		{
+			const std::string mark = bold_[r].count(i) != 0 ? "**" : "";
+			text += " " + mark + escaped(rows_[r][i]) + mark + " |";
+		}
 		text += "\n";
 	}
 	return text;
+}
+
+std::string Table::toCsv() const
+{
+	const auto quoted = [](const std::string& cell)
+	{
+		if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+		std::string text = "\"";
+		for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+		return text + "\"";
+	};
+	std::string text;
+	for (size_t i = 0; i < columns_.size(); ++i)
+		text += (i == 0 ? "" : ",") + quoted(columns_[i].name + (columns_[i].unit.empty() ? "" : " (" + columns_[i].unit + ")"));
+	text += "\n";
+	for (const auto& row : rows_)
+	{
+		for (size_t i = 0; i < row.size(); ++i) text += (i == 0 ? "" : ",") + quoted(row[i]);
+		text += "\n";
+	}
+	return text;
+}
+
+std::string Table::toHtml() const
+{
+	const auto kind = [this](size_t i) { return columns_[i].left ? std::string(" class=\"l\"") : std::string(); };
+	std::string html = "<table>\n<thead><tr>";
+	for (size_t i = 0; i < columns_.size(); ++i)
+		html += "<th scope=\"col\"" + kind(i) + ">" + escapedForXml(columns_[i].name) +
+		        (columns_[i].unit.empty() ? "" : " <small>" + escapedForXml(columns_[i].unit) + "</small>") + "</th>";
+	html += "</tr></thead>\n<tbody>\n";
+	for (size_t r = 0; r < rows_.size(); ++r)
+	{
+		html += "<tr>";
+		for (size_t i = 0; i < rows_[r].size(); ++i)
+		{
+			const std::string content = escapedForXml(rows_[r][i]);
+			html += "<td" + kind(i) + ">" + (bold_[r].count(i) != 0 ? "<b>" + content + "</b>" : content) + "</td>";
+		}
+		html += "</tr>\n";
+	}
+	return html + "</tbody>\n</table>\n";
 }
 
 std::string fixed(double value, int decimals)

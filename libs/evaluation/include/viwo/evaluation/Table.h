@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,22 @@ class Table
 
 	explicit Table(std::vector<Column> columns);
 
-	/** @pre as many cells as columns. */
-	void addRow(std::vector<std::string> cells);
+	/** @pre as many cells as columns. @param bold indices of the cells that stand out (in Markdown and HTML). */
+	void addRow(std::vector<std::string> cells, std::set<size_t> bold = {});
 
 	/** Aligned columns, two spaces apart, units in a second header line, one newline at the end of each line. */
 	std::string toText() const;
 	/** GitHub's Markdown, units in the header in parentheses. */
 	std::string toMarkdown() const;
+	/** RFC 4180: a header line with the units in the names ("ATE (m)"), one line a row. */
+	std::string toCsv() const;
+	/** A <table> with a head, units in small print below the names. */
+	std::string toHtml() const;
 
    private:
 	std::vector<Column> columns_;
 	std::vector<std::vector<std::string>> rows_;
+	std::vector<std::set<size_t>> bold_;  //!< of each row
 };
 
 /** Fixed decimals; "-" for NaN. */

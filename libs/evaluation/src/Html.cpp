@@ -1,0 +1,84 @@
+#include <viwo/evaluation/Html.h>
+
+#include "Svg.h"
+
+namespace viwo
+{
+namespace
+{
+constexpr const char* kStyle = R"(
+:root { color-scheme: light dark; --paper: #ffffff; --ink: #202124; --muted: #5f6368; --grid: #e3e6ea; --reference: #9aa0a6; --band: #f5f6f8;
+  --c1: #0072b2; --c2: #d55e00; --c3: #009e73; --c4: #cc79a7; --c5: #b07a00; --c6: #3a8fc0; }
+@media (prefers-color-scheme: dark) { :root { --paper: #16181b; --ink: #e8eaed; --muted: #a4a9af; --grid: #33373c; --reference: #80868b; --band: #1f2226;
+  --c1: #5ab4f0; --c2: #ff8a4c; --c3: #3fcf9f; --c4: #e79cc8; --c5: #f0bc4a; --c6: #8cd0f5; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; padding: 1rem; max-width: 76rem; background: var(--paper); color: var(--ink); font: 16px/1.5 Helvetica, Arial, sans-serif; }
+h1 { font-size: 1.6rem; margin: 0.5rem 0; } h2 { font-size: 1.25rem; margin: 2rem 0 0.5rem; border-bottom: 1px solid var(--grid); }
+p { max-width: 48rem; } a { color: var(--c1); }
+.scroll { overflow-x: auto; margin: 0.5rem 0 1rem; }
+table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
+caption { caption-side: bottom; text-align: left; color: var(--muted); padding-top: 0.4rem; font-size: 0.85rem; }
+th, td { padding: 0.25rem 0.6rem; text-align: right; white-space: nowrap; }
+th { border-bottom: 2px solid var(--reference); vertical-align: bottom; white-space: normal; } th small { display: block; color: var(--muted); font-weight: normal; }
+td { border-bottom: 1px solid var(--grid); } .l { text-align: left; }
+tbody tr:hover { background: var(--band); } b { color: var(--c3); }
+figure { margin: 0.5rem 0 1rem; min-width: 0; } figure svg { max-width: 100%; height: auto; display: block; }
+figcaption { color: var(--muted); font-size: 0.85rem; }
+.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 1rem; align-items: start; }
+details { margin: 1rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; background: var(--band); padding: 0.6rem; font-size: 0.8rem; }
+@media print { :root { --paper: #ffffff; --ink: #000000; --muted: #444444; --grid: #dddddd; --reference: #888888; --band: #ffffff;
+  --c1: #0072b2; --c2: #d55e00; --c3: #009e73; --c4: #cc79a7; --c5: #b07a00; --c6: #3a8fc0; }
+  body { max-width: none; padding: 0; font-size: 11px; } .scroll { overflow: visible; } figure, tr { break-inside: avoid; } th, td { padding: 0.1rem 0.3rem; } }
+)";
+}  // namespace
+
+void HtmlPage::heading(const std::string& text)
+{
+	body_ += "<h2>" + escapedForXml(text) + "</h2>\n";
+}
+
+void HtmlPage::paragraph(const std::string& text)
+{
+	body_ += "<p>" + escapedForXml(text) + "</p>\n";
+}
+
+void HtmlPage::table(const Table& table, const std::string& caption)
+{
+	std::string html = table.toHtml();
+	const std::string begin = "<table>\n";
+	if (!caption.empty()) html.insert(begin.size(), "<caption>" + escapedForXml(caption) + "</caption>\n");
+	body_ += "<div class=\"scroll\" tabindex=\"0\">\n" + html + "</div>\n";
+}
+
+void HtmlPage::figure(const std::string& svg, const std::string& caption)
+{
+	std::string picture = svg;
+	const std::string tag = "<svg ";
+	if (picture.compare(0, tag.size(), tag) == 0) picture.insert(tag.size(), "role=\"img\" aria-label=\"" + escapedForXml(caption) + "\" ");
+	body_ += "<figure>\n" + picture + "<figcaption>" + escapedForXml(caption) + "</figcaption>\n</figure>\n";
+}
+
+void HtmlPage::beginRow()
+{
+	body_ += "<div class=\"row\">\n";
+}
+
+void HtmlPage::endRow()
+{
+	body_ += "</div>\n";
+}
+
+void HtmlPage::details(const std::string& title, const std::string& text)
+{
+	body_ += "<details><summary>" + escapedForXml(title) + "</summary>\n<pre>" + escapedForXml(text) + "</pre>\n</details>\n";
+}
+
+std::string HtmlPage::toString() const
+{
+	const std::string title = escapedForXml(title_);
+	return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, "
+	       "initial-scale=1\">\n"
+	       "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+	       title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n" + body_ + "</body>\n</html>\n";
+}
+}  // namespace viwo

@@ -1,0 +1,265 @@
+#include <viwo/core/Error.h>
+#include <viwo/experiments/Accuracy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viwo::experiments
+{
+namespace
+{
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/** Seconds of computing a second of a log. */
+constexpr double kWheelCost = 0.005, kVisionCost = 0.35;
+/** A run that covers less of the drive is a failure, whatever its error. */
+constexpr double kRequiredCoverage = 0.9;
+
+RunRecipe runOf(const std::string& sequence, uint64_t seed, const Variant& variant)
+{
+	RunRecipe run(sequenceLog(sequence, seed));
+	run.mode = variant.mode;
+	run.overrides = variant.overrides;
+	if (!variant.overrides.empty())
+		for (const char c : variant.name) run.variant += c == ' ' ? '-' : c;
+	run.cost_s = sequenceDuration_s(sequence) * (variant.mode == "wheel" ? kWheelCost : kVisionCost);
+	return run;
+}
+
+std::vector<Variant> variantsOf(const Request& request)
+{
+	std::vector<Variant> variants;
+	if (request.tables.count(1) != 0) variants = modes();
+	if (!request.ablations) return variants;
+	if (variants.empty()) variants.push_back(modes().back());
+	variants.insert(variants.end(), ablations().begin(), ablations().end());
+	return variants;
+}
+
+DriveErrors errorsOf(const Outcome& outcome, uint64_t seed)
+{
+	DriveErrors errors;
+	errors.seed = seed;
+	errors.problem = outcome.error;
+	errors.folder = outcome.folder;
+	errors.ground_truth = outcome.ground_truth;
+	if (outcome.failed()) return errors;
+	try
+	{
+		const Trajectory truth = outcome.truth(), estimate = outcome.trajectory();
+		EvaluationOptions options;
+		errors.se3 = evaluate(truth, estimate, options);
+		options.alignment = AlignmentKind::yaw;
+		errors.yaw = evaluate(truth, estimate, options);
+		if (errors.se3.coverage < kRequiredCoverage)
+			errors.problem = "covers only " + fixed(100 * errors.se3.coverage, 0) + " % of the drive";
+	}
+	catch (const Error& e)
+	{
+		errors.problem = e.what();
+	}
+	return errors;
+}
+
+std::string cell(double value_m)
+{
+	return std::isfinite(value_m) ? fixed(value_m, 3) : "fails";
+}
+
+double xy(const DriveErrors& e)
+{
+	return e.se3.ate_xy_m;
+}
+double z(const DriveErrors& e)
+{
+	return e.se3.ate_z_m;
+}
+double xyz(const DriveErrors& e)
+{
+	return e.se3.ate_xyz_m;
+}
+double zYaw(const DriveErrors& e)
+{
+	return e.yaw.ate_z_m;
+}
+
+const PaperAte& paperOf(const std::string& sequence, const std::string& mode)
+{
+	const PaperSequence& paper = paperSequence(sequence);
+	return mode == "vio" ? paper.vio : mode == "wheel" ? paper.wheel : paper.viwo;
+}
+
+const DriveResult* find(const std::vector<DriveResult>& results, const std::string& sequence, const std::string& variant)
+{
+	for (const DriveResult& result : results)
+		if (result.sequence == sequence && result.variant.name == variant) return &result;
+	return nullptr;
+}
+
+std::vector<std::string> sequencesOf(const std::vector<DriveResult>& results)
+{
+	std::vector<std::string> names;
+	for (const DriveResult& result : results)
+		if (names.empty() || names.back() != result.sequence) names.push_back(result.sequence);
+	return names;
+}
+}  // namespace
+
+const std::vector<Variant>& modes()
+{
+	static const std::vector<Variant> list{{"vio", "vio", {}}, {"wheel", "wheel", {}}, {"viwo", "viwo", {}}};
+	return list;
+}
+
+const std::vector<Variant>& ablations()
+{
+	static const std::vector<Variant> list{{"no wheel factor", "viwo", {"factors.wheel_factor=false"}},
+	                                       {"no plane factor", "viwo", {"factors.plane_factor=false"}},
+	                                       {"no wheels in the start", "viwo", {"factors.wheels_in_initialization=false"}},
+	                                       {"plain mean of gyro biases", "viwo", {"initializer.gyro_bias=paper_mean"}},
+	                                       {"no slip gate", "viwo", {"factors.slip_gate=false"}}};
+	return list;
+}
+
+double DriveErrors::xyz_m() const
+{
+	return problem.empty() ? se3.ate_xyz_m : kNever;
+}
+
+double DriveResult::median(const std::function<double(const DriveErrors&)>& figure) const
+{
+	std::vector<double> values;
+	for (const DriveErrors& errors : seeds) values.push_back(errors.problem.empty() ? figure(errors) : kNever);
+	return experiments::median(values);
+}
+
+void planDrives(Runner& runner, const Request& request)
+{
+	for (const std::string& sequence : request.sequences)
+		for (const uint64_t seed : request.seeds)
+			for (const Variant& variant : variantsOf(request)) runner.want(runOf(sequence, seed, variant));
+}
+
+std::vector<DriveResult> driveResults(const Runner& runner, const Request& request)
+{
+	std::vector<DriveResult> results;
+	for (const std::string& sequence : request.sequences)
+		for (const Variant& variant : variantsOf(request))
+		{
+			DriveResult result{sequence, variant, {}};
+			for (const uint64_t seed : request.seeds)
+				result.seeds.push_back(errorsOf(runner.outcome(runOf(sequence, seed, variant)), seed));
+			results.push_back(std::move(result));
+		}
+	return results;
+}
+
+Table table1(const std::vector<DriveResult>& results)
+{
+	std::vector<Table::Column> columns{{"sequence", "", true}, {"", "", true}};
+	for (const Variant& mode : modes())
+		for (const char* axes : {"x-y", "z", "x-y-z"}) columns.push_back({mode.name + " " + axes, "m", false});
+	Table table(columns);
+	for (const std::string& sequence : sequencesOf(results))
+	{
+		std::vector<std::string> own{sequence, "ours"}, printed{"", "paper"};
+		std::vector<double> figures(2, kNever);
+		for (const Variant& mode : modes())
+		{
+			const DriveResult* result = find(results, sequence, mode.name);
+			const PaperAte& paper = paperOf(sequence, mode.name);
+			for (const auto& [figure, paper_m] : {std::pair(xy, paper.xy_m), std::pair(z, paper.z_m), std::pair(xyz, paper.xyz_m)})
+			{
+				figures.push_back(result == nullptr ? kNever : result->median(figure));
+				own.push_back(result == nullptr ? "-" : cell(figures.back()));
+				printed.push_back(fixed(paper_m, 2));
+			}
+		}
+		std::set<size_t> bold;
+		for (size_t axes = 0; axes < 3; ++axes)
+		{
+			const double best = std::min({figures[2 + axes], figures[5 + axes], figures[8 + axes]});
+			for (size_t i = 2 + axes; i < figures.size(); i += 3)
+				if (figures[i] == best && std::isfinite(best)) bold.insert(i);
+		}
+		table.addRow(own, bold);
+		table.addRow(printed);
+	}
+	return table;
+}
+
+Table table1Runs(const std::vector<DriveResult>& results)
+{
+	Table table({{"sequence", "", true},
+	             {"run", "", true},
+	             {"seed", ""},
+	             {"x-y", "m"},
+	             {"z", "m"},
+	             {"x-y-z", "m"},
+	             {"z, yaw-aligned", "m"},
+	             {"length", "m"},
+	             {"of length", "%"},
+	             {"remark", "", true}});
+	for (const DriveResult& result : results)
+		for (const DriveErrors& e : result.seeds)
+		{
+			std::vector<std::string> cells{result.sequence, result.variant.name, std::to_string(e.seed)};
+			const bool fine = e.problem.empty();
+			for (const double value : {xy(e), z(e), xyz(e), zYaw(e)}) cells.push_back(fine ? fixed(value, 4) : "-");
+			cells.push_back(fine ? fixed(e.se3.length_m, 2) : "-");
+			cells.push_back(fine ? fixed(100 * xyz(e) / e.se3.length_m, 3) : "-");
+			cells.push_back(e.problem);
+			table.addRow(cells);
+		}
+	return table;
+}
+
+Table ablationTable(const std::vector<DriveResult>& results)
+{
+	std::vector<Table::Column> columns{{"sequence", "", true}, {"viwo", "m"}};
+	for (const Variant& variant : ablations()) columns.push_back({variant.name, "m"});
+	Table table(columns);
+	for (const std::string& sequence : sequencesOf(results))
+	{
+		std::vector<std::string> cells{sequence};
+		for (const Table::Column& column : columns)
+			if (const DriveResult* result = find(results, sequence, column.name)) cells.push_back(cell(result->median(xyz)));
+		if (cells.size() == columns.size()) table.addRow(cells);
+	}
+	return table;
+}
+
+Json table1Json(const std::vector<DriveResult>& results)
+{
+	Json rows = Json::array();
+	for (const DriveResult& result : results)
+	{
+		Json row{{"sequence", result.sequence}, {"run", result.variant.name}};
+		row["median"] = {{"ate_xy_m", result.median(xy)},
+		                 {"ate_z_m", result.median(z)},
+		                 {"ate_xyz_m", result.median(xyz)},
+		                 {"ate_z_yaw_aligned_m", result.median(zYaw)}};
+		if (find(results, result.sequence, result.variant.name) != nullptr && result.variant.overrides.empty())
+		{
+			const PaperAte& paper = paperOf(result.sequence, result.variant.name);
+			row["paper"] = {{"ate_xy_m", paper.xy_m}, {"ate_z_m", paper.z_m}, {"ate_xyz_m", paper.xyz_m}};
+		}
+		for (const DriveErrors& e : result.seeds)
+		{
+			Json seed{{"seed", e.seed}, {"problem", e.problem}};
+			if (e.problem.empty())
+				seed.update({{"ate_xy_m", xy(e)},
+				             {"ate_z_m", z(e)},
+				             {"ate_xyz_m", xyz(e)},
+				             {"ate_z_yaw_aligned_m", zYaw(e)},
+				             {"yaw_rmse_deg", e.se3.yaw_rmse_deg},
+				             {"rpe_trans_percent", e.se3.rpe_trans_percent},
+				             {"length_m", e.se3.length_m},
+				             {"coverage", e.se3.coverage}});
+			row["seeds"].push_back(seed);
+		}
+		rows.push_back(row);
+	}
+	return rows;
+}
+}  // namespace viwo::experiments

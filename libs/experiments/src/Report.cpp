@@ -1,0 +1,180 @@
+#include "Report.h"
+
+#include <viwo/core/Error.h>
+#include <viwo/evaluation/Chart.h>
+#include <viwo/evaluation/Html.h>
+#include <viwo/evaluation/TrajectoryPictures.h>
+
+#include <cmath>
+#include <limits>
+
+namespace viwo::experiments
+{
+namespace
+{
+std::string seedsText(const std::vector<uint64_t>& seeds)
+{
+	std::string text;
+	for (const uint64_t seed : seeds) text += (text.empty() ? "" : ", ") + std::to_string(seed);
+	return text;
+}
+
+void introduce(HtmlPage& page, const Request& request, const Provenance& provenance)
+{
+	page.paragraph(
+	    "The experiments of Niu et al. (Sec. 7) on simulated replicas of their six sequences, against the exact truth of the simulation. "
+	    "The replicas have the lengths, motions and kinds of places of "
+	    "the paper's sequences, not its recordings: figures of the paper stand beside ours as a measure of size, not as a comparison on "
+	    "the same data.");
+	page.paragraph("viwo " + provenance.version + " (build " + provenance.build + "), " + provenance.date + ", seeds " +
+	               seedsText(request.seeds) +
+	               ". One configuration of the estimator, one robot and one set of sensor errors for all sequences. Figures are medians "
+	               "over the seeds; alignment by rotation and translation.");
+}
+
+/** Only modes: ablations have a table of their own. */
+bool isMode(const DriveResult& result)
+{
+	return result.variant.overrides.empty();
+}
+
+void addTable1(HtmlPage& page, const std::vector<DriveResult>& drives)
+{
+	page.heading("Table 1: accuracy of whole drives");
+	page.table(table1(drives),
+	           "RMSE of the absolute trajectory error in metres; the best of our three modes is bold. The paper's vio is VINS-Mono.");
+	BarChart chart{"ATE x-y-z", "RMSE (m)", {}, {{"vio", {}}, {"wheel", {}}, {"viwo", {}}, {"paper's system", {}}}, 2};
+	for (const DriveResult& result : drives)
+	{
+		if (!isMode(result)) continue;
+		const double ate_m = result.median([](const DriveErrors& e) { return e.se3.ate_xyz_m; });
+		for (size_t i = 0; i < modes().size(); ++i)
+			if (modes()[i].name == result.variant.name)
+				chart.series[i].values.push_back(std::isfinite(ate_m) ? ate_m : std::numeric_limits<double>::quiet_NaN());
+		if (result.variant.name != "viwo") continue;
+		chart.groups.push_back(result.sequence);
+		chart.series[3].values.push_back(paperSequence(result.sequence).viwo.xyz_m);
+	}
+	page.figure(toSvg(chart, PlotColours::page), "RMSE of the ATE x-y-z in metres, by sequence.");
+}
+
+/** Figure 6 of the paper for one sequence: the modes of the first seed over the truth. */
+void addTrajectories(HtmlPage& page, const std::string& sequence, const std::vector<DriveResult>& drives)
+{
+	std::vector<NamedTrajectory> estimates;
+	std::string truth;
+	for (const DriveResult& result : drives)
+	{
+		if (result.sequence != sequence || !isMode(result) || !result.seeds.front().problem.empty()) continue;
+		truth = result.seeds.front().ground_truth;
+		estimates.push_back({result.variant.name, Trajectory::loadTum(result.seeds.front().folder + "/trajectory.tum")});
+	}
+	if (estimates.empty()) return;
+	const TrajectoryPictures pictures = trajectoryPictures(Trajectory::loadTum(truth), estimates, EvaluationOptions(), PlotColours::page);
+	const std::string which = sequence + " (" + paperSequence(sequence).motion + ")";
+	page.figure(pictures.paths, which + " from above, in metres: our three modes over the truth.");
+	page.figure(pictures.error_over_time, which + ": distance from the truth in metres, over time in seconds.");
+	page.figure(pictures.drift_over_distance, which + ": relative error of pieces of the path, per cent of their length.");
+}
+
+void addFigure6(HtmlPage& page, const Request& request, const std::vector<DriveResult>& drives)
+{
+	page.heading("Figure 6: trajectories");
+	page.paragraph("Seed " + std::to_string(request.seeds.front()) + ".");
+	for (const std::string& sequence : request.sequences)
+	{
+		page.beginRow();
+		addTrajectories(page, sequence, drives);
+		page.endRow();
+	}
+}
+
+void addStarts(HtmlPage& page, const Request& request, const std::vector<Start>& starts)
+{
+	BarChart times{"Average time to the start",
+	               "time (s)",
+	               {},
+	               {{"VINS-Mono's method", {}}, {"ours, vision-aligned", {}}, {"ours, first metric pose", {}}, {"paper's system", {}}},
+	               1};
+	BarChart errors{
+	    "Average RMSE in the 30 s after the start", "RMSE (m)", {}, {{"VINS-Mono's method", {}}, {"ours", {}}, {"paper's system", {}}}, 2};
+	for (const StartAverages& a : startAverages(starts))
+	{
+		const PaperSequence& paper = paperSequence(a.sequence);
+		times.groups.push_back(a.sequence);
+		errors.groups.push_back(a.sequence);
+		size_t i = 0;
+		for (const double value : {a.vins_s, a.aligned_s, a.first_pose_s, paper.own_time_s.average})
+			times.series[i++].values.push_back(value);
+		i = 0;
+		for (const double value : {a.vins_rmse_m, a.rmse_m, paper.own_rmse_m.average}) errors.series[i++].values.push_back(value);
+	}
+	if (request.tables.count(2) != 0)
+	{
+		page.heading("Table 2: time to the start");
+		page.table(table2(starts),
+		           "Seconds from the first image after the start. In parentheses: the robot stands or turns on the spot there; these count "
+		           "for the first metric pose only.");
+	}
+	if (request.tables.count(3) != 0)
+	{
+		page.heading("Table 3: accuracy after the start");
+		page.table(table3(starts),
+		           "RMSE of the ATE x-y-z in metres over 30 s from where both methods have started; a dash where the trajectory does not "
+		           "converge (ATE above 5 % of the length, or scale off by more than 10 %).");
+	}
+	page.heading("Figure 7: starts");
+	page.beginRow();
+	page.figure(toSvg(times, PlotColours::page), "Average time to the start in seconds, by sequence.");
+	page.figure(toSvg(errors, PlotColours::page), "Average RMSE of the ATE x-y-z in metres in the 30 s after the start, by sequence.");
+	page.endRow();
+}
+
+/** Median time of each stage of a frame, of viwo's first seed. */
+void addStages(HtmlPage& page, const std::vector<DriveResult>& drives)
+{
+	const std::vector<std::string> stages{"decode", "track", "estimate", "optimize", "marginalize", "covariance", "frame"};
+	BarChart chart{"Time of a frame's stages (median)", "time (ms)", stages, {}, 1};
+	for (const DriveResult& result : drives)
+	{
+		if (result.variant.name != "viwo" || !result.seeds.front().problem.empty()) continue;
+		const Json times = loadJson(result.seeds.front().folder + "/summary.json").at("stages_ms");
+		chart.series.push_back({result.sequence, {}});
+		for (const std::string& stage : stages)
+			chart.series.back().values.push_back(times.contains(stage) ? times.at(stage).at("median").get<double>()
+			                                                           : std::numeric_limits<double>::quiet_NaN());
+	}
+	page.heading("Times");
+	page.figure(toSvg(chart, PlotColours::page),
+	            "Median time of the stages of one frame in milliseconds, by sequence; programs ran side by side on this machine. "
+	            "'estimate' contains optimize and marginalize, 'frame' is all.");
+}
+}  // namespace
+
+std::string reportHtml(const Request& request, const Provenance& provenance, const std::vector<DriveResult>& drives,
+                       const std::vector<Start>& starts)
+{
+	HtmlPage page("Visual-inertial-wheel odometry: the paper's experiments");
+	introduce(page, request, provenance);
+	if (request.tables.count(1) != 0) addTable1(page, drives);
+	if (!starts.empty()) addStarts(page, request, starts);
+	if (request.ablations)
+	{
+		page.heading("Ablations");
+		page.table(ablationTable(drives), "RMSE of the ATE x-y-z in metres: viwo, and viwo with one part switched off.");
+	}
+	if (request.tables.count(1) != 0)
+	{
+		addFigure6(page, request, drives);
+		addStages(page, drives);
+	}
+	if (!drives.empty())
+	{
+		page.heading("Every run");
+		page.table(table1Runs(drives), "RMSE of the ATE of each run in metres.");
+	}
+	if (!starts.empty()) page.table(startRuns(starts), "Each start.");
+	page.details("Configuration of the estimator", provenance.configuration);
+	return page.toString();
+}
+}  // namespace viwo::experiments

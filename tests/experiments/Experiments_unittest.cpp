@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+#include <viwo/core/Error.h>
+#include <viwo/evaluation/Json.h>
+#include <viwo/experiments/Experiments.h>
+
+#include "FakePrograms.h"
+
+namespace viwo::experiments
+{
+namespace
+{
+class Experiments : public ::testing::Test
+{
+   protected:
+	ExperimentResult run(const JobHooks& hooks = {}) { return runExperiments(request_, {out_.path(), "", programs_.folder()}, 2, hooks); }
+
+	Experiments()
+	{
+		request_.sequences = {"seq05", "seq06"};
+		request_.seeds = {1, 2};
+	}
+
+	viwo::testing::FakePrograms programs_;
+	viwo::testing::TempFolder out_;
+	Request request_;
+};
+
+TEST_F(Experiments, EveryRunIsDoneOnceAndKept)
+{
+	EXPECT_TRUE(run().problems.empty());
+	EXPECT_EQ(programs_.count("sim"), 4) << "two sequences, two seeds";
+	EXPECT_EQ(programs_.count("odometry"), 4 * 3 + 2 * (6 + 5) * 2) << "three modes of each drive, two methods of each start";
+	EXPECT_EQ(programs_.count("--mode wheel"), 4);
+	EXPECT_EQ(programs_.count("--from 60.000000 --to 105.000000"), 8);
+	const int before = programs_.count("");
+	EXPECT_TRUE(run().problems.empty());
+	EXPECT_EQ(programs_.count(""), before) << "nothing is done again";
+	request_.seeds.push_back(3);
+	request_.tables = {1};
+	run();
+	EXPECT_EQ(programs_.count(""), before + 2 * (1 + 3)) << "only what is new";
+}
+
+TEST_F(Experiments, GoOnAfterAnInterruption)
+{
+	request_.tables = {1};
+	int ended = 0;
+	JobHooks hooks;
+	hooks.ended = [&](const JobReport&) { ++ended; };
+	hooks.interrupted = [&] { return ended >= 5; };
+	EXPECT_THROW(run(hooks), Error);
+	EXPECT_FALSE(std::filesystem::exists(out_.file("table1.json")));
+	EXPECT_TRUE(run().problems.empty());
+	EXPECT_LE(programs_.count("sim"), 4 + 2) << "at most what was running is done again";
+	EXPECT_LE(programs_.count("odometry"), 12 + 2);
+	EXPECT_TRUE(std::filesystem::exists(out_.file("table1.json")));
+}
+
+TEST_F(Experiments, RunsThatFailAreRowsWithoutFiguresAndTriedAgain)
+{
+	request_.tables = {1};
+	programs_.fail(true);
+	const ExperimentResult failed = run();
+	EXPECT_EQ(failed.problems.size(), 12u);
+	EXPECT_NE(failed.problems.front().find("told to fail"), std::string::npos) << failed.problems.front();
+	EXPECT_NE(viwo::testing::readFile(out_.file("table1.md")).find("fails"), std::string::npos);
+	programs_.fail(false);
+	EXPECT_TRUE(run().problems.empty());
+	EXPECT_EQ(viwo::testing::readFile(out_.file("table1.md")).find("fails"), std::string::npos);
+}
+
+TEST_F(Experiments, TablesAreWrittenInAllTheirForms)
+{
+	request_.ablations = true;
+	const ExperimentResult result = run();
+	for (const char* table : {"table1", "table2", "table3", "ablations"})
+		for (const char* form : {".json", ".md", ".csv"})
+			EXPECT_TRUE(std::filesystem::exists(out_.file(std::string(table) + form))) << table << form;
+	const Json table1 = loadJson(out_.file("table1.json"));
+	EXPECT_EQ(table1.at("seeds").size(), 2u);
+	EXPECT_NE(table1.at("configuration").get<std::string>().find("wheel_factor"), std::string::npos);
+	double first_m = 0;
+	for (const Json& row : table1.at("results"))
+	{
+		const bool published = row.at("run") == "viwo" && row.at("sequence") == "seq05";
+		EXPECT_DOUBLE_EQ(published ? row.at("paper").at("ate_xyz_m").get<double>() : 0.03, 0.03);
+		const double ate_m = row.at("median").at("ate_xyz_m").get<double>();
+		if (first_m == 0) first_m = ate_m;
+		EXPECT_EQ(ate_m, first_m) << "all estimates are alike here";
+		EXPECT_EQ(row.at("seeds").size(), 2u);
+	}
+	EXPECT_GT(first_m, 0.01);
+	EXPECT_LT(first_m, 0.02 * 30);
+	for (const Json& average : loadJson(out_.file("table2.json")).at("results").at("averages"))
+	{
+		EXPECT_DOUBLE_EQ(average.at("aligned_s").get<double>(), 2.0);
+		EXPECT_DOUBLE_EQ(average.at("first_pose_s").get<double>(), 0.5);
+	}
+}
+
+/** One page: nothing from elsewhere, no script, and all tags closed. */
+TEST_F(Experiments, ReportStandsAlone)
+{
+	run();
+	const std::string html = viwo::testing::readFile(out_.file("report.html"));
+	for (const char* word : {"<script", "http:", "https:", "url(", "@import", "nan", "inf\""})
+	{
+		std::string rest = html;
+		for (const std::string xmlns = "http://www.w3.org/2000/svg"; rest.find(xmlns) != std::string::npos;)
+			rest.erase(rest.find(xmlns), xmlns.size());
+		EXPECT_EQ(rest.find(word), std::string::npos)
+		    << word << " in ..." << rest.substr(rest.find(word) < 80 ? 0 : rest.find(word) - 80, 160);
+	}
+	for (const char* tag : {"svg", "table", "figure", "div", "p", "h2", "tr", "td", "g", "details"})
+	{
+		const auto count = [&](const std::string& part)
+		{
+			size_t n = 0;
+			for (size_t at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++n;
+			return n;
+		};
+		const std::string name = tag;
+		EXPECT_EQ(count("<" + name + ">") + count("<" + name + " "), count("</" + name + ">")) << tag;
+	}
+	for (const char* words : {"Table 1", "Table 2", "Table 3", "Figure 6", "Figure 7", "VINS-Mono", "prefers-color-scheme: dark"})
+		EXPECT_NE(html.find(words), std::string::npos) << words;
+}
+
+TEST_F(Experiments, OtherBuildsAreMeasuredAnew)
+{
+	request_.sequences = {"seq05"};
+	request_.seeds = {1};
+	request_.tables = {1};
+	run();
+	EXPECT_EQ(programs_.count("odometry"), 3);
+	std::ofstream(programs_.folder() + "/viwo-odometry", std::ios::app) << "# another build\n";
+	run();
+	EXPECT_EQ(programs_.count("odometry"), 6);
+	EXPECT_EQ(programs_.count("sim"), 1) << "the log does not depend on the estimator";
+}
+}  // namespace
+}  // namespace viwo::experiments
