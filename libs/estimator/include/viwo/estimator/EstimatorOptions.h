@@ -130,7 +130,7 @@ struct WindowOptions : Options<WindowOptions>
 	double outlier_px = 5;
 	double slip_gate_sigma = 5;
 	double slip_gate_window_s = 1;
-	double start_after_s = 0.65;
+	double start_after_s = 0.75;
 	double max_imu_gap_s = 0.1;
 	double max_wheel_gap_s = 0.3;
 	double reinitialize_after_gap_s = 1.0;
