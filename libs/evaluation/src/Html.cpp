@@ -15,20 +15,20 @@ constexpr const char* kStyle = R"(
 body { margin: 0 auto; padding: 1rem; max-width: 76rem; background: var(--paper); color: var(--ink); font: 16px/1.5 Helvetica, Arial, sans-serif; }
 h1 { font-size: 1.6rem; margin: 0.5rem 0; } h2 { font-size: 1.25rem; margin: 2rem 0 0.5rem; border-bottom: 1px solid var(--grid); }
 p { max-width: 48rem; } a { color: var(--c1); }
-.scroll { overflow-x: auto; margin: 0.5rem 0 1rem; }
+.scroll { overflow-x: auto; margin: 0.5rem 0; }
 table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
-caption { caption-side: bottom; text-align: left; color: var(--muted); padding-top: 0.4rem; font-size: 0.85rem; }
+.caption { margin: 0 0 1rem; color: var(--muted); font-size: 0.85rem; }
 th, td { padding: 0.25rem 0.6rem; text-align: right; white-space: nowrap; }
 th { border-bottom: 2px solid var(--reference); vertical-align: bottom; white-space: normal; } th small { display: block; color: var(--muted); font-weight: normal; }
 td { border-bottom: 1px solid var(--grid); } .l { text-align: left; }
 tbody tr:hover { background: var(--band); } b { color: var(--c3); }
-figure { margin: 0.5rem 0 1rem; min-width: 0; } figure svg { max-width: 100%; height: auto; display: block; }
+figure { margin: 0.5rem 0 1rem; min-width: 0; } figure svg { max-width: 100%; min-width: 30rem; height: auto; display: block; }
 figcaption { color: var(--muted); font-size: 0.85rem; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 1rem; align-items: start; }
 details { margin: 1rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; background: var(--band); padding: 0.6rem; font-size: 0.8rem; }
 @media print { :root { --paper: #ffffff; --ink: #000000; --muted: #444444; --grid: #dddddd; --reference: #888888; --band: #ffffff;
   --c1: #0072b2; --c2: #d55e00; --c3: #009e73; --c4: #cc79a7; --c5: #b07a00; --c6: #3a8fc0; }
-  body { max-width: none; padding: 0; font-size: 11px; } .scroll { overflow: visible; } figure, tr { break-inside: avoid; } th, td { padding: 0.1rem 0.3rem; } }
+  body { max-width: none; padding: 0; font-size: 11px; } .scroll { overflow: visible; } figure svg { min-width: 0; } figure, tr { break-inside: avoid; } th, td { padding: 0.1rem 0.3rem; } }
 )";
 }  // namespace
 
@@ -44,10 +44,9 @@ void HtmlPage::paragraph(const std::string& text)
 
 void HtmlPage::table(const Table& table, const std::string& caption)
 {
-	std::string html = table.toHtml();
-	const std::string begin = "<table>\n";
-	if (!caption.empty()) html.insert(begin.size(), "<caption>" + escapedForXml(caption) + "</caption>\n");
-	body_ += "<div class=\"scroll\" tabindex=\"0\">\n" + html + "</div>\n";
+	// The caption stays where it is while a wide table scrolls.
+	body_ += "<div class=\"scroll\" tabindex=\"0\">\n" + table.toHtml() + "</div>\n";
+	if (!caption.empty()) body_ += "<p class=\"caption\">" + escapedForXml(caption) + "</p>\n";
 }
 
 void HtmlPage::figure(const std::string& svg, const std::string& caption)
@@ -55,7 +54,8 @@ void HtmlPage::figure(const std::string& svg, const std::string& caption)
 	std::string picture = svg;
 	const std::string tag = "<svg ";
 	if (picture.compare(0, tag.size(), tag) == 0) picture.insert(tag.size(), "role=\"img\" aria-label=\"" + escapedForXml(caption) + "\" ");
-	body_ += "<figure>\n" + picture + "<figcaption>" + escapedForXml(caption) + "</figcaption>\n</figure>\n";
+	body_ += "<figure>\n<div class=\"scroll\" tabindex=\"0\">\n" + picture + "</div>\n<figcaption>" + escapedForXml(caption) +
+	         "</figcaption>\n</figure>\n";
 }
 
 void HtmlPage::beginRow()
