@@ -158,6 +158,7 @@ TEST_F(OptionsFile, SavedFileReadsBackAndSavesAsTheSameBytes)
 	const std::string text = readFile(path);
 	EXPECT_EQ(text.rfind("# line one\n# line two\n", 0), 0u) << text;
 	EXPECT_NE(text.find("pieces"), std::string::npos) << text;
+	EXPECT_NE(text.find("on the basket"), std::string::npos) << "a key without a value has its comment too";
 
 	BasketOptions basket2;
 	OtherOptions other2;

@@ -138,3 +138,16 @@ TEST(Trajectory, Length)
 	t.push_back({2, Pose3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(3, 4, 2))});
 	EXPECT_DOUBLE_EQ(t.length_m(), 7);
 }
+
+TEST(Trajectory, CoveredDurationLeavesHolesOut)
+{
+	EXPECT_EQ(coveredDuration_s({}, 0.5), 0);
+	EXPECT_EQ(coveredDuration_s({7}, 0.5), 0);
+	const int64_t tenth_ns = 100000000;
+	std::vector<int64_t> stamps_ns;
+	for (int i = 0; i <= 100; ++i)
+		if (i <= 40 || i >= 60) stamps_ns.push_back(kEpoch_ns + i * tenth_ns);
+	EXPECT_NEAR(coveredDuration_s(stamps_ns, 0.5), 8, 1e-9);
+	EXPECT_NEAR(coveredDuration_s(stamps_ns, 2.5), 10, 1e-9);
+	EXPECT_NEAR(coveredDuration_s({0, 10 * tenth_ns, 20 * tenth_ns}, 0.5), 2, 1e-9) << "a slow stream is no hole";
+}

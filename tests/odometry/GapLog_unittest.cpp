@@ -24,6 +24,18 @@ TEST(GapLog, TellsWhatIsLongerThanIsBridged)
 	EXPECT_EQ(log.gaps().size(), 1u);
 }
 
+TEST(GapLog, EachHoleCountsOnceAlsoTheOneAtTheEnd)
+{
+	GapLog log{OdometryOptions()};
+	for (const double t_s : {0.0, 0.05, 5.0, 5.05, 7.0}) log.add("IMU", nanoseconds(100 + t_s));
+	log.add("ODOMETRY", nanoseconds(100));
+	log.finish(nanoseconds(107.05));
+	EXPECT_EQ(log.count("IMU"), 2u);
+	EXPECT_EQ(log.count("ODOMETRY"), 1u) << "silent from the first on";
+	EXPECT_EQ(log.count("CAM"), 0u);
+	EXPECT_NEAR(log.gaps().back().duration_s, 7.05, 1e-9);
+}
+
 TEST(GapLog, SensorsThatTheModeDoesNotUseDoNotCount)
 {
 	OdometryOptions options;

@@ -17,14 +17,16 @@ TEST(MinuteLog, CountsFramesOfEachMinute)
 	for (const auto& minute : log.minutes()) EXPECT_GT(minute.rss_mb, 1);
 }
 
-TEST(MinuteLog, MinutesWithoutFramesAreThere)
+TEST(MinuteLog, MinutesWithoutFramesTakeNoRoom)
 {
 	MinuteLog log;
 	log.addFrame(0);
 	log.addFrame(200);
-	ASSERT_EQ(log.minutes().size(), 4u);
-	EXPECT_EQ(log.minutes()[1].frames, 0u);
-	EXPECT_EQ(log.minutes()[3].frames, 1u);
+	log.addFrame(1e9);
+	ASSERT_EQ(log.minutes().size(), 3u);
+	EXPECT_EQ(log.minutes()[1].number, 3u);
+	EXPECT_EQ(log.minutes()[1].frames, 1u);
+	EXPECT_EQ(log.minutes()[2].number, 16666666u);
 }
 }  // namespace
 }  // namespace viwo

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
+#include <viwo/core/Time.h>
 #include <viwo/odometry/OdometryRun.h>
+#include <viwo/rawlog/MrptTime.h>
+#include <viwo/rawlog/RawlogWriter.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "DrivenLog.h"
@@ -71,6 +77,90 @@ TEST_F(OdometryRun, InterruptionLeavesValidFilesUpToThere)
 	EXPECT_LE(result.frames, 35);
 	EXPECT_EQ(Trajectory::loadTum(folder_.file("out/trajectory.tum")).size(), static_cast<size_t>(result.poses));
 	EXPECT_EQ(summary().at("interrupted"), true);
+}
+
+/** Every mode writes the pose that was asked for. */
+TEST_F(OdometryRun, PoseFramesInModesWithoutTheirSensor)
+{
+	const std::string rawlog = folder_.file("with_camera.rawlog");
+	const CameraModel camera{8, 8, 10, 10, 4, 4, CameraModel::Distortion::none, {}};
+	const Pose3 T_OC(forwardOpticalAxes(), Eigen::Vector3d(0.2, 0.05, 0.4)), T_OB(forwardOpticalAxes(), Eigen::Vector3d(0.1, 0.02, 0.3));
+	RawlogWriter writer(rawlog);
+	int64_t next_ns = 0;
+	for (const auto& o : log_.observations())
+	{
+		writer.write(*o);
+		if (nanosecondsOf(o->timestamp) < next_ns) continue;
+		next_ns = nanosecondsOf(o->timestamp) + nanoseconds(0.1);
+		writer.write(makeEmbeddedImage(nanosecondsOf(o->timestamp), camera, T_OC, mrpt::img::CImage(8, 8, mrpt::img::CH_GRAY)));
+	}
+	writer.close();
+	for (const Mode mode : {Mode::wheel, Mode::wio})
+	{
+		std::map<PoseFrame, Trajectory> written;
+		for (const PoseFrame frame : {PoseFrame::O, PoseFrame::B, PoseFrame::C})
+		{
+			OdometryRunOptions o = options();
+			o.rawlog = rawlog;
+			o.odometry.estimator.mode = mode;
+			o.pose_frame = frame;
+			runOdometry(o);
+			written[frame] = Trajectory::loadTum(folder_.file("out/trajectory.tum"));
+		}
+		const Trajectory& O = written[PoseFrame::O];
+		ASSERT_GT(O.size(), 30u);
+		for (const auto& [frame, T_Ox] : {std::pair{PoseFrame::B, T_OB}, std::pair{PoseFrame::C, T_OC}})
+		{
+			ASSERT_EQ(written[frame].size(), O.size());
+			for (size_t i = 0; i < O.size(); ++i)
+			{
+				const Pose3 expected = O.poses()[i].T * T_Ox, got = written[frame].poses()[i].T;
+				ASSERT_LT((got.p - expected.p).norm(), 1e-6);
+				ASSERT_LT(got.R.angularDistance(expected.R), 1e-6);
+			}
+		}
+	}
+}
+
+TEST_F(OdometryRun, CoverageIsTimeWithPoses)
+{
+	const std::string rawlog = folder_.file("gap.rawlog");
+	RawlogWriter writer(rawlog);
+	const auto observations = log_.observations();
+	const int64_t begin_ns = nanosecondsOf(observations.front()->timestamp);
+	for (const auto& o : observations)
+		if (const double t_s = secondsBetween(begin_ns, nanosecondsOf(o->timestamp)); o->sensorLabel != "IMU" || t_s < 2 || t_s > 4.5)
+			writer.write(*o);
+	writer.close();
+	OdometryRunOptions o = options();
+	o.rawlog = rawlog;
+	const OdometryRunResult result = runOdometry(o);
+	const Trajectory trajectory = Trajectory::loadTum(folder_.file("out/trajectory.tum"));
+	double longest_s = 0;
+	for (size_t i = 1; i < trajectory.size(); ++i)
+		longest_s = std::max(longest_s, secondsBetween(trajectory.poses()[i - 1].t_ns, trajectory.poses()[i].t_ns));
+	const double span_s = secondsBetween(trajectory.poses().front().t_ns, trajectory.poses().back().t_ns);
+	std::cout << "[measured] coverage " << summary().at("coverage") << ", hole of " << longest_s << " s in " << result.duration_s << " s\n";
+	ASSERT_GT(longest_s, 2);
+	EXPECT_NEAR(summary().at("coverage").get<double>(), (span_s - longest_s) / result.duration_s, 1e-6);
+	EXPECT_EQ(summary().at("imu_gaps"), 1) << "each gap counts once";
+	EXPECT_EQ(summary().at("wheel_gaps"), 0);
+	EXPECT_EQ(summary().at("gaps").size(), 1u);
+}
+
+TEST_F(OdometryRun, NothingUsableIsToldWithItsReason)
+{
+	const std::string rawlog = folder_.file("nan.rawlog");
+	RawlogWriter writer(rawlog);
+	for (const auto& o : log_.observations())
+	{
+		if (const auto imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(o)) imu->set(mrpt::obs::IMU_X_ACC, std::nan(""));
+		writer.write(*o);
+	}
+	writer.close();
+	OdometryRunOptions o = options();
+	o.rawlog = rawlog;
+	viwo::testing::expectError([&] { runOdometry(o); }, {"nan.rawlog", "no pose", "IMU: ", "not_finite"});
 }
 
 TEST_F(OdometryRun, LogTooShortForAPose)

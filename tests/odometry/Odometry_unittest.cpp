@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 #include <viwo/odometry/Odometry.h>
 #include <viwo/rawlog/MrptTime.h>
+#include <viwo/rawlog/RawlogWriter.h>
 
 #include <iostream>
 
 #include "DrivenLog.h"
+#include "ExpectError.h"
 
 namespace viwo
 {
@@ -119,6 +121,91 @@ TEST(Odometry, CalibrationCanBeGiven)
 	ASSERT_EQ(from_log.trajectory().size(), from_caller.trajectory().size());
 	for (size_t i = 0; i < from_log.trajectory().size(); ++i)
 		EXPECT_LT((from_log.trajectory().poses()[i].T.p - from_caller.trajectory().poses()[i].T.p).norm(), 1e-6);
+}
+
+/** Copies, so that others keep their stamps. */
+std::vector<mrpt::obs::CObservation::Ptr> copies(const std::vector<mrpt::obs::CObservation::Ptr>& observations)
+{
+	std::vector<mrpt::obs::CObservation::Ptr> result;
+	for (const auto& o : observations) result.push_back(std::dynamic_pointer_cast<mrpt::obs::CObservation>(o->duplicateGetSmartPtr()));
+	return result;
+}
+
+void shift(mrpt::obs::CObservation& o, double by_s)
+{
+	o.timestamp = mrptTime(nanosecondsOf(o.timestamp) + nanoseconds(by_s));
+}
+
+TEST_P(OdometryModes, OneWrongStampCostsOneObservation)
+{
+	const DrivenLog log("straight 0.6 m");
+	const auto observations = log.observations();
+	for (const double by_s : {1e6, 1e9, -1.6e9})
+	{
+		auto wrong = copies(observations);
+		size_t i = wrong.size() / 2;
+		while (wrong[i]->sensorLabel != "ODOMETRY") ++i;
+		shift(*wrong[i], by_s);
+		Odometry odometry(optionsOf(GetParam()));
+		feed(odometry, wrong);
+		EXPECT_EQ(odometry.observationCounts().at("ODOMETRY").rejected.at("stamp_jump"), 1u);
+		EXPECT_LT(largestDistance_m(odometry.trajectory(), log.truth), 0.08);
+		EXPECT_LT(odometry.trajectory().size(), 120u);
+	}
+}
+
+/** The clock is set while the robot stands: all stamps go on elsewhere. */
+TEST_P(OdometryModes, StreamThatGoesOnElsewhereIsAGapWithFewPosesInIt)
+{
+	const DrivenLog log("straight 0.9 m");
+	const auto whole = log.observations();
+	auto jumped = copies(whole);
+	for (size_t i = jumped.size() / 2; i < jumped.size(); ++i) shift(*jumped[i], 1e8);
+	Odometry plain(optionsOf(GetParam())), odometry(optionsOf(GetParam()));
+	feed(plain, whole);
+	feed(odometry, jumped);
+	EXPECT_EQ(odometry.observationCounts().at("ODOMETRY").rejected.count("stamp_jump"), 0u);
+	const int64_t half_ns = plain.trajectory().poses().front().t_ns + nanoseconds(1e7);
+	size_t after = 0;
+	for (const auto& pose : odometry.trajectory().poses()) after += pose.t_ns > half_ns;
+	std::cout << "[measured] " << odometry.trajectory().size() << " poses, " << after << " of them behind the gap, "
+	          << plain.trajectory().size() << " without a gap\n";
+	EXPECT_GT(after, plain.trajectory().size() / 3);
+	EXPECT_LT(odometry.trajectory().size(), plain.trajectory().size() + 110) << "at most ten seconds are filled";
+}
+
+TEST(Odometry, StopsBetweenTheFramesOfOneObservation)
+{
+	const DrivenLog log("straight 0.3 m");
+	const auto observations = log.observations();
+	Odometry odometry(optionsOf(Mode::wheel));
+	int frames = 0;
+	bool stop = false;
+	odometry.onFrame([&](const FrameEstimate&) { ++frames; });
+	odometry.stopWhen([&] { return stop; });
+	feed(odometry, observations);
+	const int before = frames;
+	const auto wheels = makeOdometry(nanosecondsOf(observations.back()->timestamp) + nanoseconds(9.0), {0, 0});
+	odometry.onFrame([&](const FrameEstimate&) { stop = ++frames >= before + 5; });
+	odometry.processObservation(std::make_shared<mrpt::obs::CObservationOdometry>(wheels));
+	EXPECT_EQ(frames, before + 5);
+}
+
+TEST(Odometry, TwoCamerasUnderOneLabelAreTold)
+{
+	const CameraModel camera{8, 8, 10, 10, 4, 4, CameraModel::Distortion::none, {}};
+	const CameraModel other{8, 8, 11, 10, 4, 4, CameraModel::Distortion::none, {}};
+	const mrpt::img::CImage pixels(8, 8, mrpt::img::CH_GRAY);
+	const Pose3 T_OC(forwardOpticalAxes(), Eigen::Vector3d(0.1, 0, 0.3)), moved(forwardOpticalAxes(), Eigen::Vector3d(0.1, 0.1, 0.3));
+	const auto image = [&](double t_s, const CameraModel& c, const Pose3& T)
+	{ return std::make_shared<mrpt::obs::CObservationImage>(makeEmbeddedImage(nanoseconds(1e9 + t_s), c, T, pixels)); };
+	Odometry viwo(optionsOf(Mode::viwo)), wheel(optionsOf(Mode::wheel));
+	viwo.processObservation(image(0, camera, T_OC));
+	viwo.processObservation(image(0.1, camera, T_OC));
+	viwo::testing::expectError([&] { viwo.processObservation(image(0.2, camera, moved)); }, {"CAM", "cameraPose", "cam_label"});
+	viwo::testing::expectError([&] { viwo.processObservation(image(0.3, other, T_OC)); }, {"CAM", "calibration", "cam_label"});
+	wheel.processObservation(image(0, camera, T_OC));
+	EXPECT_NO_THROW(wheel.processObservation(image(0.1, camera, moved))) << "only their times are used";
 }
 
 TEST(Odometry, StatusChangesHaveTheirCause)

@@ -2,12 +2,16 @@
 #include <viwo/odometry/StageTimes.h>
 
 #include <chrono>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace viwo
 {
 namespace
 {
+static_assert(noexcept(std::declval<StageTimes&>().end(std::declval<const std::string&>())), "it is called in destructors");
+
 void call(StageTimes& times, const std::string& stage, int ms)
 {
 	times.begin(stage);

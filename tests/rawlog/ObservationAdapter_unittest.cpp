@@ -75,6 +75,24 @@ TEST(ObservationAdapter, ImuReadsMrptsSlotsByMeaning)
 	EXPECT_EQ(sample.gyro_rad_s, Eigen::Vector3d(6, 5, 4));
 }
 
+TEST(ObservationAdapter, ImuSamplesBeyondAnySensorsRangeAreRejected)
+{
+	ObservationAdapter adapter;
+	const auto imuAt = [](int ms, double acc_m_s2, double rate_rad_s)
+	{ return makeImu({kStart_ns + ms * kMillisecond_ns, {acc_m_s2, 0, 0}, {0, rate_rad_s, 0}}, Pose3()); };
+	EXPECT_FALSE(give(adapter, imuAt(0, 199, -34)).rejected);
+	EXPECT_EQ(give(adapter, imuAt(5, -1e30, 0)).rejected, Rejection::out_of_range);
+	EXPECT_EQ(give(adapter, imuAt(10, 9.81, 36)).rejected, Rejection::out_of_range);
+	EXPECT_FALSE(give(adapter, imuAt(15, 9.81, 0)).rejected);
+	EXPECT_EQ(adapter.counts().at("IMU").rejected.at("out_of_range"), 2u);
+
+	AdapterOptions wide;
+	wide.max_acc_m_s2 = 1e5;
+	wide.max_rate_rad_s = 1e4;
+	ObservationAdapter shock(wide);
+	EXPECT_FALSE(give(shock, imuAt(0, 5000, 100)).rejected);
+}
+
 TEST(ObservationAdapter, VelocityBecomesWheelSpeeds)
 {
 	ObservationAdapter adapter;
@@ -346,5 +364,12 @@ TEST(CalibrationFrom, TheFirstObservationsOfARawlog)
 	EXPECT_NO_THROW(readCalibration(path, other, false, true));
 	other.imu_label = "LMS100";
 	expectError([&] { readCalibration(path, other, false, true); }, {path, "no IMU", "LMS100"});
+
+	RawlogWriter writer(path);
+	auto imu = makeImu(imuSample(kStart_ns), Pose3());
+	imu.timestamp = INVALID_TIMESTAMP;
+	for (int i = 0; i < 3; ++i) writer.write(imu);
+	writer.close();
+	expectError([&] { readCalibration(path, AdapterOptions(), false, true); }, {path, "none of the 3", "label IMU", "time stamp"});
 	expectError([&] { readCalibration(folder.file("none.rawlog"), options, true, true); }, {"none.rawlog", "no such file"});
 }

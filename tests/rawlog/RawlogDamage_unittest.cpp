@@ -51,6 +51,7 @@ TEST_F(RawlogDamage, MissingEmptyOrSomethingElse)
 	expectBadFile("\x89PNG\r\n\x1a\n and so on", {path, "not a rawlog"});
 	expectBadFile(std::string(1000, '\0'), {path, "not a rawlog"});
 	expectBadFile(std::string("\x28\xB5\x2F\xFD\x04\x00more", 10), {path, "zstd"});
+	expectBadFile(std::string("PK\x03\x04\x14\x00more", 10), {path, "zip", "unzip"});
 	PlainRawlog pose;
 	pose << mrpt::poses::CPose2D(1, 2, 3);
 	expectBadFile(pose.bytes(), {path, "not a rawlog", "CPose2D"});

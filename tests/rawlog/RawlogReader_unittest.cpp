@@ -150,11 +150,19 @@ TEST_F(RawlogReaderTest, OneStampFarAheadCostsNothingElse)
 	PlainRawlog plain;
 	for (int ms = 0; ms < 1000; ms += 100) plain << odometryAt(ms);
 	plain << odometryAt(1000000000);
-	for (int ms = 1000; ms < 2000; ms += 100) plain << odometryAt(ms);
+	for (int ms = 1000; ms < 4000; ms += 200) plain << odometryAt(ms + 100) << odometryAt(ms);
 	writeFile(path, plain.bytes());
 	RawlogReader reader(path);
-	EXPECT_EQ(readAll(reader).size(), 21u);
+	const auto read = millisecondsOf(readAll(reader));
+	EXPECT_EQ(read.size(), 40u) << "those that follow are still put in order";
+	EXPECT_TRUE(std::is_sorted(read.begin(), read.end()));
 	EXPECT_EQ(reader.counts().late, 0u);
+	EXPECT_EQ(reader.counts().sensors.at({"ODOMETRY", "CObservationOdometry"}).stamp_jumps, 1u);
+
+	RawlogReaderOptions all;
+	all.max_stamp_jump_s = 0;
+	RawlogReader credulous(path, all);
+	EXPECT_EQ(millisecondsOf(readAll(credulous)).back(), 1000000000);
 }
 
 TEST_F(RawlogReaderTest, ObservationsWithoutStampAreCounted)

@@ -56,6 +56,8 @@ bool OptionsReader::raw(const char* key, std::string& text)
 	known_keys_.emplace_back(key);
 	if (!source_.keyExists(section_, key)) return false;
 	text = source_.read_string(section_, key, "");
+	// MRPT takes the comment behind an empty value for the value.
+	if (text.compare(0, 2, "//") == 0) text.clear();
 	return true;
 }
 
@@ -135,8 +137,8 @@ void OptionsReader::rejectUnknownKeys() const
 
 void OptionsWriter::operator()(const char* key, const std::string& value, const char* comment)
 {
-	// A padded value would be stored with its spaces: no padding. After an empty value MRPT would read the comment as the value.
-	target_.write(section_, key, value, 0, 0, value.empty() ? "" : comment);
+	// A padded value would be stored with its spaces: no padding.
+	target_.write(section_, key, value, 0, 0, comment);
 }
 
 void OptionsWriter::operator()(const char* key, double value, const char* comment, double, double)

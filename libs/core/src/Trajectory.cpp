@@ -49,6 +49,20 @@ StampedPose parseLine(const std::string& line, const std::string& path, int line
 }
 }  // namespace
 
+double coveredDuration_s(const std::vector<int64_t>& stamps_ns, double max_gap_s)
+{
+	std::vector<double> intervals_s;
+	for (size_t i = 1; i < stamps_ns.size(); ++i) intervals_s.push_back(secondsBetween(stamps_ns[i - 1], stamps_ns[i]));
+	if (intervals_s.empty()) return 0;
+	std::vector<double> sorted = intervals_s;
+	std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+	const double limit_s = std::max(max_gap_s, 3 * sorted[sorted.size() / 2]);
+	double sum_s = 0;
+	for (const double interval_s : intervals_s)
+		if (interval_s <= limit_s) sum_s += interval_s;
+	return sum_s;
+}
+
 Trajectory Trajectory::loadTum(const std::string& path)
 {
 	std::ifstream file(path);

@@ -37,20 +37,6 @@ void requireMatches(const Trajectory& reference, const Trajectory& estimate, siz
 	throw Error(text);
 }
 
-/** Intervals between matched poses; one that is long for this estimate is a gap and does not count. */
-double coveredDuration_s(const std::vector<MatchedPose>& matches, double max_gap_s)
-{
-	std::vector<double> intervals;
-	for (size_t i = 1; i < matches.size(); ++i) intervals.push_back(secondsBetween(matches[i - 1].t_ns, matches[i].t_ns));
-	std::vector<double> sorted = intervals;
-	std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-	const double limit_s = std::max(max_gap_s, 3 * sorted[sorted.size() / 2]);
-	double sum = 0;
-	for (const double interval : intervals)
-		if (interval <= limit_s) sum += interval;
-	return sum;
-}
-
 void absoluteErrors(const std::vector<MatchedPose>& matches, TrajectoryErrors& errors)
 {
 	const double n = static_cast<double>(matches.size());
@@ -97,12 +83,13 @@ TrajectoryErrors evaluate(const Trajectory& reference, const Trajectory& estimat
 	requireMatches(reference, estimate, matches.size(), options.max_gap_s);
 
 	std::vector<Pose3> refs, ests;
-	for (const MatchedPose& m : matches) refs.push_back(m.T_ref), ests.push_back(m.T_est);
+	std::vector<int64_t> stamps_ns;
+	for (const MatchedPose& m : matches) refs.push_back(m.T_ref), ests.push_back(m.T_est), stamps_ns.push_back(m.t_ns);
 
 	TrajectoryErrors errors;
 	errors.matched = matches.size();
 	errors.unmatched = estimate.size() - matches.size();
-	errors.matched_duration_s = coveredDuration_s(matches, options.max_gap_s);
+	errors.matched_duration_s = coveredDuration_s(stamps_ns, options.max_gap_s);
 	errors.coverage = errors.matched_duration_s / secondsBetween(reference.poses().front().t_ns, reference.poses().back().t_ns);
 	errors.alignment = align(options.alignment, refs, ests);
 	for (MatchedPose& m : matches) m.T_est = errors.alignment * m.T_est;

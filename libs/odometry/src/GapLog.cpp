@@ -2,6 +2,8 @@
 
 #include <viwo/core/Time.h>
 
+#include <algorithm>
+
 namespace viwo
 {
 GapLog::GapLog(const OdometryOptions& options)
@@ -22,5 +24,16 @@ std::optional<GapLog::Gap> GapLog::add(const std::string& label, int64_t t_ns)
 	if (gap.duration_s <= longest->second) return std::nullopt;
 	gaps_.push_back(gap);
 	return gap;
+}
+
+void GapLog::finish(int64_t t_ns)
+{
+	const auto last_ns = last_ns_;
+	for (const auto& [label, last] : last_ns) add(label, t_ns);
+}
+
+size_t GapLog::count(const std::string& label) const
+{
+	return static_cast<size_t>(std::count_if(gaps_.begin(), gaps_.end(), [&](const Gap& gap) { return gap.label == label; }));
 }
 }  // namespace viwo

@@ -2,6 +2,7 @@
 
 #include <viwo/odometry/OdometryOptions.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,7 +26,10 @@ class GapLog
 
 	/** The next observation of the log. @return the gap that ends with it, if there is one. */
 	std::optional<Gap> add(const std::string& label, int64_t t_ns);
+	/** The log ends: sensors that were silent by then have a gap up to there. */
+	void finish(int64_t t_ns);
 	const std::vector<Gap>& gaps() const { return gaps_; }
+	size_t count(const std::string& label) const;
 
    private:
 	std::map<std::string, double> longest_s_;  //!< by label

@@ -2,10 +2,14 @@
 
 #include <viwo/odometry/OdometryRun.h>
 
+#include <functional>
+
 namespace viwo
 {
 /** Looks into a rawlog, no further than needed, for what would otherwise be told too late or never.
- *  @throws Error: no observation of a sensor that the mode needs (it lists the labels there are); an IMU no faster than the camera.
+ *  @param interrupted the look ends, with nothing told, when it says so; may be empty.
+ *  @throws Error: no observation of a sensor that the mode needs (it lists the labels there are); sensors on different clocks; an IMU no
+ * faster than the camera; sensor poses that were never set; an accelerometer that does not read m/s^2; an image mask that is not there.
  */
-void checkInput(const OdometryRunOptions& options);
+void checkInput(const OdometryRunOptions& options, const std::function<bool()>& interrupted = {});
 }  // namespace viwo

@@ -21,8 +21,8 @@ double residentMemory_mb()
 
 void MinuteLog::addFrame(double t_s)
 {
-	const size_t minute = static_cast<size_t>(std::max(0.0, t_s) / 60);
-	if (minutes_.size() <= minute) minutes_.resize(minute + 1);
+	const size_t number = static_cast<size_t>(std::max(0.0, t_s) / 60);
+	if (minutes_.empty() || minutes_.back().number != number) minutes_.push_back({number, 0, 0});
 	++minutes_.back().frames;
 	minutes_.back().rss_mb = residentMemory_mb();
 }

@@ -5,12 +5,13 @@
 
 namespace viwo
 {
-/** Frames of each minute of the log, and the memory that the program had at the end of it. */
+/** Frames of each minute of the log that has some, and the memory that the program had at the end of it. */
 class MinuteLog
 {
    public:
 	struct Minute
 	{
+		size_t number = 0;	//!< since the first frame, from 0
 		size_t frames = 0;
 		double rss_mb = 0;
 	};

@@ -1,11 +1,15 @@
 #include <mrpt/img/CImage.h>
 #include <viwo/core/Time.h>
+#include <viwo/core/TimeText.h>
 #include <viwo/frontend/FeatureTracker.h>
 #include <viwo/odometry/Odometry.h>
+#include <viwo/rawlog/StampGate.h>
 
 #include <deque>
 #include <opencv2/core.hpp>
 #include <optional>
+
+#include "StreamClock.h"
 
 namespace viwo
 {
@@ -18,6 +22,7 @@ struct Odometry::Impl
 	OdometryOptions options;
 	std::optional<Calibration> calibration;
 	ObservationAdapter adapter;
+	StampGate gate{OdometryOptions::max_stamp_jump_s, true};
 	mrpt::obs::CObservationImage::Ptr first_image;
 	mrpt::obs::CObservationIMU::Ptr first_imu;
 
@@ -26,7 +31,7 @@ struct Odometry::Impl
 	std::vector<ImuSample> early_imu;  //!< before the calibration was complete
 	std::vector<WheelSample> early_wheels;
 	std::deque<ImageRef> images;  //!< not yet processed
-	int64_t stream_ns = 0;	//!< newest stamp of all
+	StreamClock stream{OdometryOptions::longest_blind_s};
 	int64_t latest_imu_ns = 0, latest_wheels_ns = 0;
 	std::optional<int64_t> last_frame_ns, last_image_ns, first_sample_ns, first_frame_ns;
 
@@ -34,18 +39,23 @@ struct Odometry::Impl
 	Trajectory trajectory;
 	std::function<void(const FrameEstimate&)> on_frame;
 	std::function<void(const NavState&)> on_imu_rate;
+	std::function<bool()> stop_asked;
 	StageTimes times;
 	size_t reported_changes = 0;
 
 	Impl(Odometry& o, const OdometryOptions& opt) : owner(o), options(opt), adapter(opt.rawlog) {}
 
 	const EstimatorOptions& est() const { return options.estimator; }
+	bool uses(const std::string& label) const;
+	void accept(const mrpt::obs::CObservation::Ptr& observation);
+	void judged(const StampGate::Verdict& verdict);
 	void take(const ImuSample& s);
 	void take(const WheelSample& s);
+	void take(const ImageRef& image);
 	bool makeEstimator(bool at_end);
 	void drain(bool at_end);
 	bool covered(int64_t t_ns) const;
-	std::optional<int64_t> blindFrameDue() const;
+	std::optional<int64_t> blindFrameDue();
 	void process(int64_t t_ns, const ImageRef* image);
 	FeatureFrame track(int64_t t_ns, const ImageRef& image);
 	void emitImuRate(int64_t t_until_ns);
@@ -58,24 +68,38 @@ struct Odometry::Impl
 		Stage(Impl& i, std::string n) : impl(i), name(std::move(n)) { impl.stage(name, true); }
 		~Stage() { impl.stage(name, false); }
 	};
-	void stage(const std::string& name, bool begin)
-	{
-		if (begin)
-		{
-			owner.profiler.enter("odometry." + name);
-			times.begin(name);
-		}
-		else
-		{
-			times.end(name);
-			owner.profiler.leave("odometry." + name);
-		}
-	}
+	void stage(const std::string& name, bool begin);
 };
+
+/** Stages end in destructors, the estimator's too: there nothing may be thrown, and a time that is lost matters less than the error on its way. */
+void Odometry::Impl::stage(const std::string& name, bool begin)
+{
+	if (begin)
+	{
+		owner.profiler.enter("odometry." + name);
+		times.begin(name);
+		return;
+	}
+	times.end(name);
+	try
+	{
+		owner.profiler.leave("odometry." + name);
+	}
+	catch (const std::exception&)
+	{
+	}
+}
+
+bool Odometry::Impl::uses(const std::string& label) const
+{
+	const AdapterOptions& labels = adapter.options();
+	return label == labels.cam_label || (est().useImu() && label == labels.imu_label) || (est().useWheels() && label == labels.odometry_label);
+}
 
 void Odometry::Impl::take(const ImuSample& s)
 {
 	latest_imu_ns = s.t_ns;
+	stream.advance(s.t_ns);
 	if (!first_sample_ns) first_sample_ns = s.t_ns;
 	if (estimator)
 		estimator->addImu(s);
@@ -86,11 +110,25 @@ void Odometry::Impl::take(const ImuSample& s)
 void Odometry::Impl::take(const WheelSample& s)
 {
 	latest_wheels_ns = s.t_ns;
+	stream.advance(s.t_ns);
 	if (!first_sample_ns) first_sample_ns = s.t_ns;
 	if (estimator)
 		estimator->addWheels(s);
 	else
 		early_wheels.push_back(s);
+}
+
+void Odometry::Impl::take(const ImageRef& image)
+{
+	const mrpt::obs::CObservationImage& o = *image.observation();
+	if (!first_image) first_image = image.observation();
+	if (est().useCamera() && (o.cameraPose != first_image->cameraPose || o.cameraParams != first_image->cameraParams))
+		throw Error("label " + o.sensorLabel + ": the image at " + formatSeconds(image.t_ns) + " s has another " +
+					(o.cameraPose != first_image->cameraPose ? "cameraPose" : "calibration") +
+					" than the first: two cameras under one label; give each its own and set cam_label to one");
+	images.push_back(image);
+	last_image_ns = image.t_ns;
+	stream.advance(image.t_ns);
 }
 
 bool Odometry::Impl::makeEstimator(bool at_end)
@@ -99,7 +137,7 @@ bool Odometry::Impl::makeEstimator(bool at_end)
 	const bool has_image = first_image != nullptr, has_imu = first_imu != nullptr;
 	if (!calibration)
 	{
-		if ((est().useCamera() && !has_image) || (est().useImu() && !has_imu)) return false;
+		if ((est().useCamera() && !has_image) || (est().useImu() && early_imu.empty())) return false;
 		if (est().mode == Mode::wheel && !at_end && !has_imu && images.empty() && early_wheels.size() < 20) return false;
 		calibration = calibrationFrom(adapter.options(), est().useCamera() ? first_image.get() : nullptr, has_imu ? first_imu.get() : nullptr);
 	}
@@ -117,23 +155,23 @@ bool Odometry::Impl::covered(int64_t t_ns) const
 {
 	const bool imu = !est().useImu() || latest_imu_ns >= t_ns;
 	const bool wheels = !est().useWheels() || latest_wheels_ns >= t_ns;
-	return (imu && wheels) || secondsBetween(t_ns, stream_ns) > OdometryOptions::max_wait_s;
+	return (imu && wheels) || secondsBetween(t_ns, stream.now_ns()) > OdometryOptions::max_wait_s;
 }
 
-std::optional<int64_t> Odometry::Impl::blindFrameDue() const
+std::optional<int64_t> Odometry::Impl::blindFrameDue()
 {
 	if (!images.empty()) return std::nullopt;
 	const std::optional<int64_t> since = last_frame_ns ? last_frame_ns : est().useCamera() ? std::nullopt : first_sample_ns;
 	if (!since) return std::nullopt;
-	const bool camera_is_there = last_image_ns && secondsBetween(*last_image_ns, stream_ns) <= OdometryOptions::blind_after_s;
-	if (camera_is_there || secondsBetween(*since, stream_ns) <= OdometryOptions::blind_after_s) return std::nullopt;
-	return *since + nanoseconds(OdometryOptions::blind_period_s);
+	const bool camera_is_there = last_image_ns && secondsBetween(*last_image_ns, stream.now_ns()) <= OdometryOptions::blind_after_s;
+	if (camera_is_there || secondsBetween(*since, stream.now_ns()) <= OdometryOptions::blind_after_s) return std::nullopt;
+	return stream.pastHoles(*since + nanoseconds(OdometryOptions::blind_period_s));
 }
 
 void Odometry::Impl::drain(bool at_end)
 {
 	if (!makeEstimator(at_end)) return;
-	while (true)
+	while (!stop_asked || !stop_asked())
 	{
 		if (const auto t_ns = blindFrameDue(); t_ns && covered(*t_ns))
 		{
@@ -206,40 +244,44 @@ Odometry::~Odometry()
 	profiler.clear(true);  // or it prints its statistics
 }
 
+void Odometry::Impl::accept(const mrpt::obs::CObservation::Ptr& observation)
+{
+	const AdaptedObservation adapted = adapter.convert(observation);
+	if (const auto* imu = std::get_if<ImuSample>(&adapted.sample))
+		take(*imu);
+	else if (const auto* wheels = std::get_if<WheelSample>(&adapted.sample))
+		take(*wheels);
+	else if (const auto* image = std::get_if<ImageRef>(&adapted.sample))
+		take(*image);
+	else
+		return;
+	drain(false);
+}
+
+void Odometry::Impl::judged(const StampGate::Verdict& verdict)
+{
+	for (const auto& observation : verdict.rejected) adapter.reject(observation->sensorLabel, Rejection::stamp_jump);
+	for (const auto& observation : verdict.passed) accept(observation);
+}
+
 void Odometry::processObservation(const mrpt::obs::CObservation::Ptr& observation)
 {
 	Impl& i = *impl_;
-	const AdaptedObservation adapted = i.adapter.convert(observation);
-	if (const auto* imu = std::get_if<ImuSample>(&adapted.sample))
-	{
-		if (!i.first_imu) i.first_imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation);
-		i.take(*imu);
-		i.stream_ns = std::max(i.stream_ns, imu->t_ns);
-	}
-	else if (const auto* wheels = std::get_if<WheelSample>(&adapted.sample))
-	{
-		i.take(*wheels);
-		i.stream_ns = std::max(i.stream_ns, wheels->t_ns);
-	}
-	else if (const auto* image = std::get_if<ImageRef>(&adapted.sample))
-	{
-		if (!i.first_image) i.first_image = image->observation();
-		i.images.push_back(*image);
-		i.last_image_ns = image->t_ns;
-		i.stream_ns = std::max(i.stream_ns, image->t_ns);
-	}
-	else
-		return;
-	i.drain(false);
+	// Without a use for its samples, the IMU still says where B is.
+	if (!i.first_imu && observation->sensorLabel == i.adapter.options().imu_label)
+		i.first_imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation);
+	if (i.uses(observation->sensorLabel)) i.judged(i.gate.push(observation));
 }
 
 void Odometry::finish()
 {
+	impl_->judged(impl_->gate.finish());
 	impl_->drain(true);
 	// Nothing follows that the last images could wait for.
-	if (impl_->estimator && impl_->last_frame_ns) impl_->emitImuRate(impl_->stream_ns);
+	if (impl_->estimator && impl_->last_frame_ns) impl_->emitImuRate(impl_->stream.now_ns());
 }
 
+void Odometry::stopWhen(std::function<bool()> asked) { impl_->stop_asked = std::move(asked); }
 const FrameEstimate& Odometry::latest() const { return impl_->latest; }
 const Trajectory& Odometry::trajectory() const { return impl_->trajectory; }
 std::vector<LandmarkPoint> Odometry::landmarks() const { return impl_->estimator ? impl_->estimator->landmarks() : std::vector<LandmarkPoint>(); }

@@ -5,12 +5,14 @@
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "GapLog.h"
 #include "InputCheck.h"
@@ -34,6 +36,7 @@ class Run
 		  odometry_(options.odometry, calibrationOf(options)), begin_(Clock::now())
 	{
 		odometry_.setMinLoggingLevel(mrpt::system::LVL_WARN);
+		odometry_.stopWhen([this] { return interrupted(); });
 		odometry_.onFrame([this](const FrameEstimate& e) { take(e); });
 		odometry_.onImuRate([this](const NavState& s) { outputs_.add(s, *odometry_.calibration(), odometry_.calibrationEstimate().T_BC); });
 	}
@@ -65,7 +68,10 @@ class Run
 	{
 		const AdapterOptions& labels = options.odometry.rawlog;
 		RawlogReaderOptions r;
-		r.labels = {labels.cam_label, labels.imu_label, labels.odometry_label};
+		const EstimatorOptions& e = options.odometry.estimator;
+		r.labels = {labels.cam_label};	// gives the times of frames in every mode
+		if (e.useImu()) r.labels.push_back(labels.imu_label);
+		if (e.useWheels()) r.labels.push_back(labels.odometry_label);
 		r.action_odometry_label = labels.odometry_label;
 		r.allow_truncated = options.allow_truncated;
 		return r;
@@ -74,18 +80,16 @@ class Run
 	static Calibration calibrationOf(const OdometryRunOptions& options)
 	{
 		const EstimatorOptions& e = options.odometry.estimator;
-		return readCalibration(options.rawlog, options.odometry.rawlog, e.useCamera(), e.useImu(), true);
+		return readCalibration(options.rawlog, options.odometry.rawlog, e.useCamera() || options.pose_frame == PoseFrame::C,
+			e.useImu() || options.pose_frame == PoseFrame::B, true);
 	}
 
 	void replay()
 	{
-		while (const auto observation = reader_.next())
+		while (!interrupted())
 		{
-			if (hooks_.interrupted && hooks_.interrupted())
-			{
-				result_.interrupted = true;
-				break;
-			}
+			const auto observation = reader_.next();
+			if (!observation) break;
 			const int64_t t_ns = nanosecondsOf(observation->timestamp);
 			if (!first_ns_) first_ns_ = t_ns;
 			const double t_s = secondsBetween(*first_ns_, t_ns);
@@ -93,19 +97,26 @@ class Run
 			if (t_s > options_.to_s) break;
 			keepPace(t_s);
 			if (const auto gap = gaps_.add(observation->sensorLabel, t_ns)) tell(*gap);
+			last_ns_ = t_ns;
 			odometry_.processObservation(observation);
 		}
 		odometry_.finish();
+		if (first_ns_) gaps_.finish(last_ns_);
+		result_.interrupted = interrupted();
 	}
+
+	bool interrupted() const { return hooks_.interrupted && hooks_.interrupted(); }
 
 	/** Real-time replay: waits for the log's clock; when behind it, says so and goes on without dropping anything. */
 	void keepPace(double t_s)
 	{
 		if (options_.replay_speed <= 0) return;
+		constexpr double kLongestSleep_s = 0.1;	 // a gap of the log may be hours
 		const double due_s = (t_s - options_.from_s) / options_.replay_speed;
-		const double now_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-		lag_s_ = std::max(0.0, now_s - due_s);
-		if (due_s > now_s) std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s));
+		const auto now_s = [this] { return std::chrono::duration<double>(Clock::now() - begin_).count(); };
+		lag_s_ = std::max(0.0, now_s() - due_s);
+		for (double left_s = due_s - now_s(); left_s > 0 && !interrupted(); left_s = due_s - now_s())
+			std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kLongestSleep_s)));
 	}
 
 	void take(const FrameEstimate& e)
@@ -152,10 +163,13 @@ class Run
 		const auto add = [&](const std::string& label, uint64_t count, const std::string& reason) {
 			if (count > 0) reasons[label] += (reasons[label].empty() ? ": " : ", ") + std::to_string(count) + " " + reason;
 		};
+		const std::vector<std::string> used = readerOptions(options_).labels;
 		for (const auto& [key, sensor] : reader_.counts().sensors)
 		{
+			if (std::find(used.begin(), used.end(), key.first) == used.end()) continue;
 			add(key.first, sensor.late, "late");
 			add(key.first, sensor.unstamped, "unstamped");
+			add(key.first, sensor.stamp_jumps, "stamp_jump");
 		}
 		for (const auto& [label, counts] : odometry_.observationCounts())
 			for (const auto& [reason, count] : counts.rejected) add(label, count, reason);
@@ -198,8 +212,9 @@ class Run
 	std::string noPose() const
 	{
 		const std::string where = options_.rawlog + ": no pose: ";
+		if (result_.interrupted) return where + "interrupted before the first";
+		if (const std::string left_out = leftOut(); !left_out.empty()) return where + "too much had to be left out (" + left_out + ")";
 		if (result_.frames == 0) return where + "no frame was processed; in the log: " + reader_.counts().describe();
-		const auto changes = odometry_.statusChanges();
 		return where + "the estimator is still " + toString(odometry_.status()) + " after " + std::to_string(result_.frames) + " frames" +
 			   (options_.odometry.estimator.mode == Mode::vio ? "; mode vio needs motion with parallax and acceleration" : "; see summary.json");
 	}
@@ -214,7 +229,7 @@ class Run
 	MinuteLog minutes_;
 	GapLog gaps_{options_.odometry};
 	std::optional<int64_t> first_ns_;
-	int64_t last_frame_ns_ = 0;
+	int64_t last_ns_ = 0, last_frame_ns_ = 0;
 	double lag_s_ = 0;
 	size_t told_ = 0;
 };
@@ -222,7 +237,7 @@ class Run
 
 OdometryRunResult runOdometry(const OdometryRunOptions& options, const OdometryRunHooks& hooks)
 {
-	checkInput(options);
+	checkInput(options, hooks.interrupted);
 	Run run(options, hooks);
 	return run.go();
 }

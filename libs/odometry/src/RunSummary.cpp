@@ -40,6 +40,7 @@ Json observationsJson(const Odometry& odometry, const RawlogCounts& counts)
 		Json rejected = Json::object();
 		if (sensor.late) rejected["late"] = sensor.late;
 		if (sensor.unstamped) rejected["unstamped"] = sensor.unstamped;
+		if (sensor.stamp_jumps) rejected["stamp_jump"] = sensor.stamp_jumps;
 		if (sensor.missing_images) rejected["missing_image_file"] = sensor.missing_images;
 		const auto used = odometry.observationCounts().find(key.first);
 		entry["used"] = used == odometry.observationCounts().end() ? 0 : used->second.accepted;
@@ -94,6 +95,15 @@ Json firstPoseJson(const FrameEstimate& first, const Calibration& calibration)
 		{"acc_bias_in_O_m_s2", vectorJson(calibration.T_OB.R * first.state.b_a)}};
 }
 
+/** Share of the duration in which poses follow each other; what viwo-evaluate finds, too, with its default gap. */
+double coverage(const Trajectory& trajectory, double duration_s)
+{
+	constexpr double kMaxGap_s = 0.5;
+	std::vector<int64_t> stamps_ns;
+	for (const StampedPose& pose : trajectory.poses()) stamps_ns.push_back(pose.t_ns);
+	return duration_s > 0 ? coveredDuration_s(stamps_ns, kMaxGap_s) / duration_s : 0;
+}
+
 /** Whether frames become slower, or the program larger, as the log goes on. */
 Json minutesJson(const MinuteLog& log, const StageTimes& times)
 {
@@ -102,7 +112,7 @@ Json minutesJson(const MinuteLog& log, const StageTimes& times)
 	for (const MinuteLog::Minute& minute : log.minutes())
 	{
 		const StageTimes::Statistics s = times.statistics("frame", begin, begin + minute.frames);
-		minutes.push_back({{"frames", minute.frames}, {"frame_median_ms", s.median_ms}, {"rss_mb", minute.rss_mb}});
+		minutes.push_back({{"minute", minute.number}, {"frames", minute.frames}, {"frame_median_ms", s.median_ms}, {"rss_mb", minute.rss_mb}});
 		begin += minute.frames;
 	}
 	return minutes;
@@ -129,12 +139,12 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["first_pose_s"] = outputs.poses() > 0 ? Json(secondsBetween(odometry.firstFrame_ns(), outputs.firstPose_ns())) : Json();
 	j["first_pose"] = outputs.poses() > 0 ? firstPoseJson(outputs.first(), *odometry.calibration()) : Json();
 	j["initialization_time_s"] = timeToStatus(odometry, Status::tracking);
-	j["coverage"] = result.duration_s > 0 ? secondsBetween(outputs.firstPose_ns(), outputs.lastPose_ns()) / result.duration_s : 0.0;
+	j["coverage"] = coverage(odometry.trajectory(), result.duration_s);
 	j["reinitializations"] = n.reinitializations;
 	j["slip_events"] = n.slip_events;
 	j["standstills"] = n.standstills;
-	j["imu_gaps"] = n.imu_gaps;
-	j["wheel_gaps"] = n.wheel_gaps;
+	j["imu_gaps"] = gaps.count(options.odometry.rawlog.imu_label);
+	j["wheel_gaps"] = gaps.count(options.odometry.rawlog.odometry_label);
 	j["status_changes"] = statusJson(odometry);
 	j["gaps"] = gapsJson(gaps, odometry.firstFrame_ns());
 	j["calibration"] = calibrationJson(odometry);

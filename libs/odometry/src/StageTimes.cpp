@@ -1,6 +1,7 @@
 #include <viwo/odometry/StageTimes.h>
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <numeric>
 
@@ -8,10 +9,15 @@ namespace viwo
 {
 void StageTimes::begin(const std::string& stage) { stages_[stage].begin = std::chrono::steady_clock::now(); }
 
-void StageTimes::end(const std::string& stage)
+void StageTimes::end(const std::string& stage) noexcept
+try
 {
-	Stage& s = stages_[stage];
-	s.ms.push_back(std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - s.begin).count());
+	const auto it = stages_.find(stage);
+	if (it == stages_.end()) return;
+	it->second.ms.push_back(std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - it->second.begin).count());
+}
+catch (const std::exception&)
+{
 }
 
 StageTimes::Statistics StageTimes::statistics(const std::string& stage) const

@@ -73,6 +73,10 @@ Error missingSensorError(const std::string& rawlog_path, SensorKind kind, const 
 	Names names{"image", "CObservationImage", "cam_label", options.cam_label};
 	if (kind == SensorKind::imu) names = {"IMU", "CObservationIMU", "imu_label", options.imu_label};
 	if (kind == SensorKind::odometry) names = {"odometry", "CObservationOdometry", "odometry_label", options.odometry_label};
+	const auto there = counts.sensors.find({names.label, names.class_name});
+	if (there != counts.sensors.end() && there->second.unstamped == there->second.read)
+		return Error(rawlog_path + ": none of the " + std::to_string(there->second.read) + " observations (" + names.class_name +
+		             ") under label " + names.label + " has a time stamp; record them with their times");
 	return Error(rawlog_path + ": no " + names.what + " (" + names.class_name + ") under label " + names.label +
 	             "; labels here: " + counts.describe() + "; set " + names.key + " in the configuration");
 }

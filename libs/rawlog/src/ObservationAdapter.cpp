@@ -53,6 +53,10 @@ const char* nameOf(Rejection reason)
 			return "missing_data";
 		case Rejection::too_fast:
 			return "too_fast";
+		case Rejection::out_of_range:
+			return "out_of_range";
+		case Rejection::stamp_jump:
+			return "stamp_jump";
 	}
 	return "unknown";
 }
@@ -112,6 +116,8 @@ AdaptedObservation ObservationAdapter::convertImu(const CObservationIMU& imu)
 	sample.acc_m_s2 = {imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC)};
 	sample.gyro_rad_s = {imu.get(IMU_WX), imu.get(IMU_WY), imu.get(IMU_WZ)};
 	if (!sample.acc_m_s2.allFinite() || !sample.gyro_rad_s.allFinite()) return rejection(Rejection::not_finite);
+	if (sample.acc_m_s2.norm() > options_.max_acc_m_s2 || sample.gyro_rad_s.norm() > options_.max_rate_rad_s)
+		return rejection(Rejection::out_of_range);
 	if (const auto reason = checkStamp(last_imu_t_ns_, sample.t_ns)) return rejection(*reason);
 	last_imu_t_ns_ = sample.t_ns;
 	AdaptedObservation result;

@@ -59,6 +59,14 @@ void requireReadableFile(const std::string& path)
 	if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0)
 		throw Error(path + ": the file is empty; record or copy it again");
 }
+/** Of the ways to pack a file, rawlogs know gzip alone. */
+void refuseOtherCompression(const std::string& path, const std::string& first_bytes)
+{
+	if (first_bytes == "\x28\xB5\x2F\xFD")
+		throw Error(path + ": compressed by zstd, which is not read here; unpack it first: zstd -d < " + path + " > plain.rawlog");
+	if (first_bytes == "PK\x03\x04")
+		throw Error(path + ": a zip archive, not a rawlog; unpack it first (unzip " + path + ") and give the rawlog inside");
+}
 }  // namespace
 
 ObservationSource::ObservationSource(const std::string& path, const std::string& action_odometry_label)
@@ -67,8 +75,7 @@ ObservationSource::ObservationSource(const std::string& path, const std::string&
 	std::error_code ignored;
 	file_bytes_ = fs::file_size(path, ignored);
 	if (ignored) file_bytes_ = 0;
-	if (archive_.peek(4) == "\x28\xB5\x2F\xFD")
-		throw Error(path + ": compressed by zstd, which is not read here; unpack it first: zstd -d < " + path + " > plain.rawlog");
+	refuseOtherCompression(path, archive_.peek(4));
 	if (archive_.atEnd()) throw Error(path + ": no entries in this rawlog; record or copy it again");
 	if (headAt(archive_) == Head::something_else) throw Error(path + ": not a rawlog (it does not start with an MRPT object)");
 }

@@ -3,6 +3,7 @@
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
+#include <viwo/rawlog/StampGate.h>
 
 #include <algorithm>
 #include <limits>
@@ -48,6 +49,7 @@ struct RawlogReader::Impl
 	      options(options),
 	      source(path, options.action_odometry_label),
 	      images(path),
+	      gate(options.max_stamp_jump_s, false),
 	      window_ns(nanoseconds(options.reorder_window_s))
 	{
 	}
@@ -55,6 +57,9 @@ struct RawlogReader::Impl
 	CObservation::Ptr next();
 	void readEntry();
 	void accept(const CObservation::Ptr& observation);
+	void judged(const StampGate::Verdict& verdict);
+	void enqueue(const CObservation::Ptr& observation);
+	RawlogCounts::Sensor& sensorOf(const CObservation& o) { return counts.sensors[{o.sensorLabel, shortClassName(o)}]; }
 	bool resolveImage(const CObservation::Ptr& observation, std::string& error);
 	bool wanted(const std::string& label) const
 	{
@@ -65,8 +70,10 @@ struct RawlogReader::Impl
 	RawlogReaderOptions options;
 	ObservationSource source;
 	ImageFolder images;
+	StampGate gate;
 	RawlogCounts counts;
 	int64_t window_ns;
+	std::map<const CObservation*, std::string> errors;  //!< of observations that are still at the gate
 	std::multimap<int64_t, Queued> queue;  //!< by stamp; of equal stamps in the order of the file
 	int64_t newest_ns = std::numeric_limits<int64_t>::min();
 	std::optional<int64_t> last_delivered_ns;
@@ -92,7 +99,7 @@ bool RawlogReader::Impl::resolveImage(const CObservation::Ptr& observation, std:
 
 void RawlogReader::Impl::accept(const CObservation::Ptr& observation)
 {
-	auto& sensor = counts.sensors[{observation->sensorLabel, shortClassName(*observation)}];
+	auto& sensor = sensorOf(*observation);
 	sensor.read++;
 	if (observation->timestamp == INVALID_TIMESTAMP)
 	{
@@ -104,20 +111,43 @@ void RawlogReader::Impl::accept(const CObservation::Ptr& observation)
 	sensor.first_t_ns = is_first ? t_ns : std::min(sensor.first_t_ns, t_ns);
 	sensor.last_t_ns = is_first ? t_ns : std::max(sensor.last_t_ns, t_ns);
 	if (!wanted(observation->sensorLabel)) return;
-	if (last_delivered_ns && t_ns < *last_delivered_ns)
-	{
-		sensor.late++;
-		counts.late++;
-		return;
-	}
-	Queued queued{observation, {}};
-	if (!resolveImage(observation, queued.error))
+	std::string error;
+	if (!resolveImage(observation, error))
 	{
 		sensor.missing_images++;
 		if (options.skip_missing_images) return;
+		errors[observation.get()] = error;
+	}
+	judged(gate.push(observation));
+}
+
+void RawlogReader::Impl::judged(const StampGate::Verdict& verdict)
+{
+	for (const auto& observation : verdict.passed) enqueue(observation);
+	for (const auto& observation : verdict.rejected)
+	{
+		errors.erase(observation.get());
+		sensorOf(*observation).stamp_jumps++;
+	}
+}
+
+void RawlogReader::Impl::enqueue(const CObservation::Ptr& observation)
+{
+	const int64_t t_ns = nanosecondsOf(observation->timestamp);
+	std::string error;
+	if (const auto it = errors.find(observation.get()); it != errors.end())
+	{
+		error = std::move(it->second);
+		errors.erase(it);
+	}
+	if (last_delivered_ns && t_ns < *last_delivered_ns)
+	{
+		sensorOf(*observation).late++;
+		counts.late++;
+		return;
 	}
 	newest_ns = std::max(newest_ns, t_ns);
-	queue.emplace(t_ns, std::move(queued));
+	queue.emplace(t_ns, Queued{observation, error});
 }
 
 void RawlogReader::Impl::readEntry()
@@ -134,6 +164,7 @@ void RawlogReader::Impl::readEntry()
 	}
 	counts.entries = source.entries();
 	for (const auto& observation : observations) accept(observation);
+	if (ended) judged(gate.finish());
 }
 
 CObservation::Ptr RawlogReader::Impl::next()

@@ -31,13 +31,18 @@ class Odometry : public mrpt::system::COutputLogger
 	Odometry(const OdometryOptions& options, const Calibration& calibration);
 	~Odometry() override;
 
-	/** Takes an image, IMU or odometry observation under its configured label; others are ignored. Poses that become due are computed at once.
-	 *  @throws Error for what cannot be used at all: no calibration, wrong image size, missing image file (what was computed stays).
+	/** Takes an image, IMU or odometry observation under its configured label; others, and sensors that the mode does not use, are ignored
+	 *  (but images give the times of frames in every mode). Poses that become due are computed at once.
+	 *  @throws Error for what cannot be used at all: no calibration, images of two cameras, wrong image size, missing image file (what was
+	 *  computed stays).
 	 */
 	void processObservation(const mrpt::obs::CObservation::Ptr& observation);
 
 	/** No more observations: processes the images that still wait for samples. */
 	void finish();
+
+	/** Asked before every frame; once it says true, no more are made (one observation may make many: see OdometryOptions::longest_blind_s). */
+	void stopWhen(std::function<bool()> asked);
 
 	/** The newest frame's result; has_pose is false before the first. */
 	const FrameEstimate& latest() const;

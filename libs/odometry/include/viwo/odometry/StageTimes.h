@@ -18,7 +18,8 @@ class StageTimes
 	};
 
 	void begin(const std::string& stage);
-	void end(const std::string& stage);
+	/** Throws nothing, as it is called where others have thrown: without memory the call is not counted. */
+	void end(const std::string& stage) noexcept;
 
 	Statistics statistics(const std::string& stage) const;
 	/** Of the calls with these indices, [from, to). */

@@ -51,6 +51,8 @@ struct AdapterOptions : Options<AdapterOptions>
 	double wheel_time_offset_s = 0;
 	double max_wheel_speed_m_s = 50;
 	double min_wheel_interval_s = 0.005;
+	double max_acc_m_s2 = 200;
+	double max_rate_rad_s = 35;
 
 	double metresPerTick() const;
 
@@ -75,6 +77,8 @@ struct AdapterOptions : Options<AdapterOptions>
 		v("max_wheel_speed_m_s", max_wheel_speed_m_s, "faster samples are rejected (an encoder that was reset)", 0.01, 1e4);
 		v("min_wheel_interval_s", min_wheel_interval_s,
 		  "ticks or poses that come sooner are added to the next (stamps of reception come in bunches)", 0.0, 1.0);
+		v("max_acc_m_s2", max_acc_m_s2, "an IMU sample with more is rejected (no sensor of a robot reads that)", 10.0, 1e5);
+		v("max_rate_rad_s", max_rate_rad_s, "the same for its angular rates", 0.1, 1e4);
 	}
 };
 
@@ -105,7 +109,9 @@ enum class Rejection
 	duplicate_stamp,
 	stamp_backwards,
 	missing_data,  //!< IMU without acceleration or rates, odometry without the configured source
-	too_fast
+	too_fast,      //!< wheel speed beyond max_wheel_speed_m_s
+	out_of_range,  //!< IMU sample beyond max_acc_m_s2 or max_rate_rad_s
+	stamp_jump     //!< see StampGate
 };
 const char* nameOf(Rejection reason);
 
@@ -143,6 +149,9 @@ class ObservationAdapter
 	 *  an observation under a configured label is of another class.
 	 */
 	AdaptedObservation convert(const mrpt::obs::CObservation::Ptr& observation);
+
+	/** Counts an observation that is not to be converted at all. */
+	void reject(const std::string& label, Rejection reason) { counts_[label].rejected[nameOf(reason)]++; }
 
 	/** By label. */
 	const std::map<std::string, RejectionCounts>& counts() const { return counts_; }
@@ -184,6 +193,6 @@ enum class SensorKind
 	odometry
 };
 
-/** "run.rawlog: no image (CObservationImage) under label CAM (key cam_label); labels here: ..." */
+/** "run.rawlog: no image (CObservationImage) under label CAM; labels here: ...", or that all there are have no stamp. */
 Error missingSensorError(const std::string& rawlog_path, SensorKind kind, const AdapterOptions& options, const RawlogCounts& counts);
 }  // namespace viwo

@@ -17,6 +17,9 @@ struct RawlogReaderOptions
 	std::vector<std::string> labels;
 	/** Observations are sorted by stamp within this span. */
 	double reorder_window_s = 0.5;
+	/** Observations whose stamp is farther than this from the stream are dropped (and counted), unless the whole stream goes on there; 0: none
+	 * are. See StampGate. */
+	double max_stamp_jump_s = 60;
 	/** The end of a truncated file is an end like any other; see RawlogReader::truncated(). */
 	bool allow_truncated = false;
 	/** Drop (and count) image observations whose external file is missing, instead of an Error. */
@@ -33,6 +36,7 @@ struct RawlogCounts
 		uint64_t read = 0;                      //!< observations in the file, whether delivered or not
 		uint64_t late = 0;                      //!< of these, dropped for coming later than the re-ordering window allows
 		uint64_t unstamped = 0;                 //!< of these, dropped for lack of a stamp
+		uint64_t stamp_jumps = 0;               //!< of these, dropped for a stamp far from the stream
 		uint64_t missing_images = 0;            //!< of these, dropped for lack of the external image file
 		int64_t first_t_ns = 0, last_t_ns = 0;  //!< smallest and largest stamp
 	};
