@@ -46,11 +46,12 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--html", a.html, "Write figures and pictures as one page to this file: no script, no network, light and dark");
 	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
 	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
-	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(CLI::NonNegativeNumber);
+	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(app::nonNegative());
 	cli.add_option("--min-coverage", a.min_coverage, "Exit with 1 when the coverage of an estimate is below, 0 to 1")
+	    ->check(app::nonNegative())
 	    ->check(CLI::Range(0.0, 1.0));
 	cli.add_option("--max-gap", a.options.max_gap_s, "Longest gap of the reference to interpolate across, s")
-	    ->check(CLI::PositiveNumber)
+	    ->check(app::positive())
 	    ->capture_default_str();
 	cli.footer(
 	    "Examples:\n"

@@ -45,10 +45,10 @@ int main(int argc, char** argv)
 	CLI::App* kitti = cli.add_subcommand("kitti", "A drive in KITTI's raw layout (image_00, oxts, calib_*.txt here or above)");
 	addFiles(*kitti, job);
 	kitti->add_option("--speed-noise", kitti_options.speed_noise_m_s, "Standard deviation of noise added to the forward speed, m/s")
-	    ->check(CLI::NonNegativeNumber)
+	    ->check(app::nonNegative())
 	    ->capture_default_str();
 	kitti->add_option("--speed-scale", kitti_options.speed_scale, "Factor on the forward speed")
-	    ->check(CLI::PositiveNumber)
+	    ->check(app::positive())
 	    ->capture_default_str();
 	kitti->add_option("--seed", kitti_options.seed, "Of the speed noise")->capture_default_str();
 	CLI::App* carmen = cli.add_subcommand("carmen", "A CARMEN log with scans and odometry (plain, .gz or .bz2)");

@@ -76,6 +76,27 @@ TEST(Program, BadUsageIsStatusTwo)
 	EXPECT_EQ(contradictory.err, "viwo-test: error: --from lies behind --to (see viwo-test --help)\n");
 }
 
+TEST(Program, ValuesThatAreNoNumbersOrNamesAreRefused)
+{
+	const auto refused = [](const CLI::Validator& check, std::string text) { return !check(text).empty(); };
+	for (const char* text : {"nan", "inf", "-inf", "-1", "", "x"})
+	{
+		EXPECT_TRUE(refused(app::nonNegative(), text)) << text;
+		EXPECT_TRUE(refused(app::positive(), text)) << text;
+		std::string copy = text;
+		EXPECT_LT(app::nonNegative()(copy).size(), 80u) << text;
+	}
+	for (const char* text : {"0.5", "1e3", "7"})
+	{
+		EXPECT_FALSE(refused(app::nonNegative(), text)) << text;
+		EXPECT_FALSE(refused(app::positive(), text)) << text;
+	}
+	EXPECT_FALSE(refused(app::nonNegative(), "0"));
+	EXPECT_TRUE(refused(app::positive(), "0"));
+	EXPECT_TRUE(refused(app::notEmpty(), ""));
+	EXPECT_FALSE(refused(app::notEmpty(), "out"));
+}
+
 TEST(Program, HelpVersionQuiet)
 {
 	const Outcome help = runWith({"--help"}, [] { return 1; });

@@ -219,6 +219,38 @@ TEST_F(BadInput, DuplicateStamps)
 	expectKept(30);
 }
 
+TEST_F(BadInput, OneStampFarOff)
+{
+	for (const double by_s : {1e6, 1e9, -1.7e9})
+		for (const char* label : {"CAM", "IMU", "ODOMETRY"})
+		{
+			bool done = false;
+			const auto spoil = [&](CObservation& o, double t_s, RawlogWriter& w)
+			{
+				// The first of all, where the clock was not set yet; or one in mid-log.
+				if (!done && o.sensorLabel == label && (by_s < 0 || t_s > 1.5)) shiftStamp(o, by_s), done = true;
+				w.write(o);
+			};
+			const std::string path = edited(spoil, 3);
+			expectFailure(path, {std::string(label) + ": 1 stamp_jump", "the rest"}, {"--mode", "wio"});
+			expectKept(20);
+			EXPECT_LT(trajectory("out").size(), 35u);
+			EXPECT_EQ(summary("out").at("observations").at(label).at("rejected").at("stamp_jump"), 1);
+			std::filesystem::remove(folder_.file("bad_Images"));
+		}
+}
+
+TEST_F(BadInput, ImuOnItsOwnClock)
+{
+	const auto spoil = [](CObservation& o, double, RawlogWriter& w)
+	{
+		if (isImu(o)) shiftStamp(o, -1.6e9);
+		w.write(o);
+	};
+	expectFailure(edited(spoil), {"bad.rawlog", "IMU and ", "different clocks"});
+	expectNothingKept();
+}
+
 /** Gaps are no failure: they are told, and the run goes on. */
 TEST_F(BadInput, GapsAreReported)
 {

@@ -1,5 +1,6 @@
 #include <viwo/app/Program.h>
 
+#include <cmath>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -78,7 +79,33 @@ int guarded(const std::string& program, const std::function<int()>& body)
 		return fail(program, "unknown failure", 1);
 	}
 }
+
+CLI::Validator finiteNumber(const char* what, bool (*holds)(double))
+{
+	const auto check = [what, holds](std::string& text)
+	{
+		double value = 0;
+		const bool is_number = CLI::detail::lexical_cast(text, value);
+		return is_number && std::isfinite(value) && holds(value) ? std::string() : "'" + text + "' is not a finite number " + what;
+	};
+	return CLI::Validator(check, "");
+}
 }  // namespace
+
+CLI::Validator nonNegative()
+{
+	return finiteNumber("of at least 0", [](double value) { return value >= 0; });
+}
+
+CLI::Validator positive()
+{
+	return finiteNumber("above 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator notEmpty()
+{
+	return CLI::Validator([](std::string& text) { return text.empty() ? std::string("the name is empty") : std::string(); }, "");
+}
 
 int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 {
