@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
+
 #include <viwo/core/Error.h>
 #include <viwo/sim/Rig.h>
 #include <viwo/sim/Sequence.h>
 #include <viwo/sim/World.h>
 
 #include <fstream>
+#include <ostream>
 
 #include "SimFixtures.h"
 #include "TempFolder.h"
@@ -21,6 +23,12 @@ struct Published
 	const char* name;
 	double length_m, last_start_s;
 };
+
+/** Names the parameter in the list of tests. */
+std::ostream& operator<<(std::ostream& out, const Published& p)
+{
+	return out << p.name;
+}
 
 class Sequences : public ::testing::TestWithParam<Published>
 {
