@@ -1,0 +1,199 @@
+#include "FrontEnd.h"
+
+#include <viwo/core/Error.h>
+#include <viwo/core/Time.h>
+
+#include <algorithm>
+#include <deque>
+
+namespace viwo::gt
+{
+namespace
+{
+constexpr double kDeg = M_PI / 180;
+constexpr int kFewestPoints = 15;
+
+/** Keys of the recent past around the robot, as one thin cloud. */
+class LocalMap
+{
+   public:
+	LocalMap(const Scales& scales, const MatchingOptions& options) : scales_(scales), options_(options) {}
+
+	void add(const Pose2& T, const Cloud& cloud)
+	{
+		const double way_m = keys_.empty() ? 0 : keys_.back().way_m + (T.p - keys_.back().p).norm();
+		keys_.push_back({T.p, way_m, {}});
+		appendMoved(T, cloud, keys_.back().cloud);
+		while (way_m - keys_.front().way_m > options_.local_map_way_m) keys_.pop_front();
+
+		// The newest keys whatever the distance, then the nearest: a robot that comes back out of a room finds the corridor it left.
+		std::vector<std::pair<double, size_t>> order;
+		for (size_t k = 0; k < keys_.size(); ++k) order.emplace_back(k + 5 >= keys_.size() ? 0 : (keys_[k].p - T.p).norm(), k);
+		std::sort(order.begin(), order.end());
+		if (order.size() > static_cast<size_t>(options_.local_map_keys)) order.resize(static_cast<size_t>(options_.local_map_keys));
+		points_.clear();
+		for (const auto& [distance, k] : order) points_.insert(points_.end(), keys_[k].cloud.begin(), keys_[k].cloud.end());
+		points_ = thinned(points_, scales_.voxel_m);
+		index_.build(points_, 2 * scales_.voxel_m);
+		matcher_.reset();
+	}
+
+	bool empty() const { return keys_.empty(); }
+	const PointIndex& index() const { return index_; }
+	const CorrelativeMatcher& matcher()
+	{
+		if (!matcher_) matcher_ = std::make_unique<CorrelativeMatcher>(points_, scales_.field_resolution_m, scales_.field_sigma_m);
+		return *matcher_;
+	}
+
+   private:
+	struct Key
+	{
+		Eigen::Vector2d p;
+		double way_m;
+		Cloud cloud;
+	};
+	const Scales& scales_;
+	const MatchingOptions& options_;
+	std::deque<Key> keys_;
+	Cloud points_;
+	PointIndex index_;
+	std::unique_ptr<CorrelativeMatcher> matcher_;
+};
+
+class Tracker
+{
+   public:
+	Tracker(const Session& session, const MotionModel& motion, const GroundTruthOptions& options, const Scales& scales)
+	    : session_(session), motion_(motion), options_(options), scales_(scales), map_(scales, options.matching)
+	{
+	}
+
+	void track(size_t i, bool may_be_key, FrontEndResult& result)
+	{
+		const Cloud cloud = scanCloud(session_.scans[i], options_.scan, motion_.twistAt(i), session_.range_noise_m);
+		int points = 0;
+		for (const OrientedPoint& point : cloud) points += point.hasNormal();
+		const PosePrior guess = predict(i, result.scans);
+		TrackedScan scan;
+		scan.T = guess.T;
+		if (points >= kFewestPoints && !map_.empty()) match(cloud, guess, scan, result.searches);
+		if (points >= kFewestPoints && map_.empty()) scan.flag = PoseFlag::good;
+		result.scans.push_back(scan);
+		if (!may_be_key || points < kFewestPoints || !farEnough(scan.T, result)) return;
+		result.keys.push_back(i);
+		result.key_clouds.push_back(cloud);
+		map_.add(scan.T, cloud);
+	}
+
+   private:
+	PosePrior predict(size_t i, const std::vector<TrackedScan>& done) const
+	{
+		PosePrior prior;
+		if (i == 0) return prior;
+		const Pose2& T_last = done.back().T;
+		const auto motion = motion_.between(i - 1, i);
+		Motion2 step;
+		if (motion)
+			step = *motion;
+		else if (i > 1)
+		{
+			const double last_s = secondsBetween(session_.scans[i - 2].t_ns, session_.scans[i - 1].t_ns);
+			const double now_s = secondsBetween(session_.scans[i - 1].t_ns, session_.scans[i].t_ns);
+			const Pose2 last = between(done[i - 2].T, T_last);
+			if (last_s > 0 && now_s < 1) step.T_ab = Pose2(last.p * (now_s / last_s), last.yaw * (now_s / last_s));
+			step.information.diagonal() << 1 / 0.01, 1 / 0.01, 1 / 0.01;
+		}
+		prior.T = T_last * step.T_ab;
+		Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+		R.topLeftCorner<2, 2>() = T_last.R();
+		prior.information = R * step.information * R.transpose();
+		return prior;
+	}
+
+	bool trusted(const Registration& r) const
+	{
+		return r.inlierRatio() >= options_.matching.min_inlier_ratio && r.inliers >= kFewestPoints;
+	}
+
+	void match(const Cloud& cloud, const PosePrior& guess, TrackedScan& scan, size_t& searches)
+	{
+		Registration r = registerCloud(cloud, map_.index(), guess.T, &guess, scales_.registration);
+		if (!trusted(r))
+		{
+			++searches;
+			const auto found =
+			    map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m, options_.matching.search_angle_deg * kDeg, 0.4);
+			if (found)
+			{
+				const Registration second = registerCloud(cloud, map_.index(), found->T, nullptr, scales_.registration);
+				if (second.inliers > r.inliers) r = second;
+			}
+		}
+		scan.inlier_ratio = r.inlierRatio();
+		if (!trusted(r)) return;
+		scan.T = r.T;
+		scan.information = r.trustedInformation(options_.matching.min_weakest);
+		scan.flag = PoseFlag::good;
+		if (r.weakest >= options_.matching.min_weakest) return;
+		// Along a corridor the map of the last scans would hold the robot back a little at every scan: odometry alone moves it there.
+		scan.flag = PoseFlag::degenerate;
+		scan.T.p += r.weakest_direction * r.weakest_direction.dot(guess.T.p - r.T.p);
+	}
+
+	bool farEnough(const Pose2& T, const FrontEndResult& result) const
+	{
+		if (result.keys.empty()) return true;
+		const Pose2 step = between(result.scans[result.keys.back()].T, T);
+		return step.p.norm() > options_.matching.key_distance_m || std::abs(step.yaw) > options_.matching.key_angle_deg * kDeg;
+	}
+
+	const Session& session_;
+	const MotionModel& motion_;
+	const GroundTruthOptions& options_;
+	const Scales& scales_;
+	LocalMap map_;
+};
+}  // namespace
+
+const char* nameOf(PoseFlag flag)
+{
+	switch (flag)
+	{
+		case PoseFlag::good:
+			return "good";
+		case PoseFlag::degenerate:
+			return "degenerate";
+		case PoseFlag::odometry_only:
+			break;
+	}
+	return "odometry_only";
+}
+
+Scales::Scales(double noise_m)
+{
+	// Usual lasers (1 to 2 cm) share one set of lengths; noisier ones need wider ones.
+	const double factor = std::max(1.0, noise_m / 0.02);
+	voxel_m = 0.08 * std::min(factor, 4.0);
+	registration.sigma_m = 0.02 * factor;
+	registration.kernel_m = 0.06 * factor;
+	registration.last_radius_m = 0.2 * std::min(factor, 5.0);
+	registration.first_radius_m = 2.5 * registration.last_radius_m;
+	field_sigma_m = 0.06 * factor;
+	field_resolution_m = 0.05 * std::min(factor, 3.0);
+}
+
+FrontEndResult trackScans(const Session& session, const MotionModel& motion, const GroundTruthOptions& options, const Scales& scales,
+                          const std::function<bool(size_t)>& may_be_key, const std::function<bool(double)>& proceed)
+{
+	FrontEndResult result;
+	Tracker tracker(session, motion, options, scales);
+	for (size_t i = 0; i < session.scans.size(); ++i)
+	{
+		tracker.track(i, may_be_key(i), result);
+		if (i % 64 == 0 && !proceed(static_cast<double>(i) / static_cast<double>(session.scans.size())))
+			throw Error("interrupted: nothing was written");
+	}
+	return result;
+}
+}  // namespace viwo::gt

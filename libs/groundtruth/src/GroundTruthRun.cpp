@@ -1,0 +1,88 @@
+#include "GroundTruthSummary.h"
+#include "MapFiles.h"
+#include "TrajectoryFiles.h"
+
+#include <viwo/core/Error.h>
+#include <viwo/groundtruth/GroundTruthRun.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+
+namespace viwo::gt
+{
+namespace
+{
+void makeFolder(const std::string& dir)
+{
+	std::error_code error;
+	std::filesystem::create_directories(dir, error);
+	if (error) throw Error(dir + ": cannot make this folder (" + error.message() + "); choose another with -o");
+}
+
+WithoutOdometry compare(const std::vector<FinalPose>& a, const std::vector<FinalPose>& b)
+{
+	WithoutOdometry result;
+	for (size_t i = 0; i < a.size(); ++i)
+	{
+		const Pose2 d = between(a[i].T, b[i].T);
+		result.mean_m += d.p.norm() / static_cast<double>(a.size());
+		result.mean_deg += std::abs(d.yaw) * 180 / M_PI / static_cast<double>(a.size());
+		result.max_m = std::max(result.max_m, d.p.norm());
+	}
+	return result;
+}
+
+void count(const Session& session, const Solution& solution, GroundTruthRunResult& result)
+{
+	result.scans = session.scans.size();
+	result.key_scans = solution.keys.size();
+	result.loops_accepted = solution.loops.accepted;
+	result.loops_rejected = solution.loops.rejected;
+	result.notes = session.notes;
+	for (size_t i = 0; i < solution.poses.size(); ++i)
+	{
+		const FinalPose& pose = solution.poses[i];
+		++(pose.flag == PoseFlag::good ? result.good : pose.flag == PoseFlag::degenerate ? result.degenerate : result.odometry_only);
+		if (i > 0) result.path_length_m += (pose.T.p - solution.poses[i - 1].T.p).norm();
+	}
+}
+}  // namespace
+
+GroundTruthRunResult runGroundTruth(const GroundTruthRunOptions& options, const GroundTruthRunHooks& hooks)
+{
+	const auto start = std::chrono::steady_clock::now();
+	const std::clock_t cpu_start = std::clock();
+	if (options.rawlogs.empty()) throw Error("no rawlog was given");
+	makeFolder(options.output_dir);
+	const auto progress = [&](double fraction, const std::string& what)
+	{
+		if (hooks.progress) hooks.progress(fraction, what);
+		return !hooks.interrupted || !hooks.interrupted();
+	};
+	const Session session = loadSession(options, [&](double f) { return progress(0.1 * f, "reading"); });
+	const Solution solution = solve(session, options, progress);
+	std::optional<WithoutOdometry> without;
+	if (!options.options.graph.odometry_edges)
+	{
+		GroundTruthRunOptions with = options;
+		with.options.graph.odometry_edges = true;
+		without = compare(solve(session, with, progress).poses, solution.poses);
+	}
+
+	GroundTruthRunResult result;
+	count(session, solution, result);
+	progress(0.96, "writing");
+	const std::string& dir = options.output_dir;
+	writeTrajectory(dir, session, solution.poses);
+	writeGraph(dir, session, solution.keys, solution.edges);
+	writeMaps(dir, session, solution.keys, solution.poses, options.options.scan, options.resolution_m);
+	GroundTruthOptions effective = options.options;
+	saveOptions(dir + "/config.ini", effective.sections(), "Effective configuration of viwo-groundtruth");
+	result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	result.cpu_time_s = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+	result.summary_path = dir + "/summary.json";
+	writeSummary(result.summary_path, options, session, solution, without, result);
+	return result;
+}
+}  // namespace viwo::gt

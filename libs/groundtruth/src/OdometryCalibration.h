@@ -1,0 +1,18 @@
+#pragma once
+
+#include "ScanSmoother.h"
+
+namespace viwo::gt
+{
+/** What the finished trajectory says of the sensors. Fields are empty where the log does not tell. */
+struct OdometryCalibration
+{
+	std::optional<double> distance_scale;  //!< way by scans over way by odometry
+	std::optional<double> turn_scale;      //!< turn by scans over turn by odometry: above 1 the track is taken too wide
+	std::optional<double> lidar_yaw_rad;   //!< the lidar seems mounted this much to the left of what sensorPose says
+	std::optional<double> time_offset_s;   //!< odometry's stamps plus this are the scans'
+};
+
+/** @param poses of all scans; those that are not good are left out. */
+OdometryCalibration calibrateOdometry(const Session& session, const std::vector<FinalPose>& poses);
+}  // namespace viwo::gt

@@ -1,0 +1,169 @@
+#include "Pipeline.h"
+
+#include "Refinement.h"
+
+#include <viwo/core/Error.h>
+
+#include <algorithm>
+
+namespace viwo::gt
+{
+namespace
+{
+constexpr size_t kHoldoutStride = 10;
+/** Errors of ranges that depend on range, incidence and surface are common to many scans: averaging does not make them smaller. */
+constexpr double kSystematic_m = 0.008;
+
+double quantile(std::vector<double> values, double fraction)
+{
+	if (values.empty()) return 0;
+	std::sort(values.begin(), values.end());
+	return values[std::min(values.size() - 1, static_cast<size_t>(fraction * static_cast<double>(values.size())))];
+}
+
+HoldoutErrors compareHoldout(const std::vector<FinalPose>& poses, const std::function<bool(size_t)>& held_out)
+{
+	std::vector<double> metres, degrees;
+	for (size_t i = 0; i < poses.size(); ++i)
+	{
+		if (!held_out(i) || !poses[i].matched) continue;
+		const Pose2 d = between(*poses[i].matched, poses[i].T);
+		metres.push_back(d.p.norm());
+		degrees.push_back(std::abs(d.yaw) * 180 / M_PI);
+	}
+	return {metres.size(), quantile(metres, 0.5), quantile(metres, 0.95), quantile(degrees, 0.5), quantile(degrees, 0.95)};
+}
+
+/** Angle by which most surfaces stand off the axes, in (-45, 45] deg: from the mean of four times the directions of their normals. */
+double offAxes_rad(const KeyScans& keys)
+{
+	double sine = 0, cosine = 0;
+	for (size_t k = 0; k < keys.size(); ++k)
+		for (const OrientedPoint& point : keys.clouds[k])
+		{
+			if (!point.hasNormal()) continue;
+			const double angle = 4 * (std::atan2(point.n.y(), point.n.x()) + keys.poses[k].yaw);
+			sine += std::sin(angle);
+			cosine += std::cos(angle);
+		}
+	return std::atan2(sine, cosine) / 4;
+}
+
+void turnMap(double angle_rad, Solution& solution)
+{
+	const Pose2 T(0, 0, angle_rad);
+	Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+	R.topLeftCorner<2, 2>() = T.R();
+	for (Pose2& pose : solution.keys.poses) pose = T * pose;
+	for (FinalPose& pose : solution.poses)
+	{
+		pose.T = T * pose.T;
+		pose.covariance = R * pose.covariance * R.transpose();
+	}
+}
+
+/** The loops that the caller put in: from and to the keys next to those scans. */
+std::vector<GraphEdge> handMade(const std::vector<HandMadeLoop>& loops, const KeyScans& keys, const FrontEndResult& front_end)
+{
+	std::vector<GraphEdge> edges;
+	for (const HandMadeLoop& loop : loops)
+	{
+		if (loop.from >= front_end.scans.size() || loop.to >= front_end.scans.size()) throw Error("loop by hand: there is no such scan");
+		const auto keyOf = [&](size_t scan)
+		{
+			const auto after = std::upper_bound(keys.scan.begin(), keys.scan.end(), scan);
+			return static_cast<size_t>(std::max<std::ptrdiff_t>(0, after - keys.scan.begin() - 1));
+		};
+		GraphEdge edge;
+		edge.a = keyOf(loop.from);
+		edge.b = keyOf(loop.to);
+		if (edge.a == edge.b) throw Error("loop by hand: both scans belong to one key scan");
+		const auto T_key_scan = [&](size_t key, size_t scan)
+		{ return between(front_end.scans[keys.scan[key]].T, front_end.scans[scan].T); };
+		edge.T_ab = T_key_scan(edge.a, loop.from) * Pose2(loop.x_m, loop.y_m, loop.yaw_rad) * T_key_scan(edge.b, loop.to).inverse();
+		edge.information = Eigen::Vector3d(1e4, 1e4, 1e5).asDiagonal();
+		edge.kind = GraphEdge::Kind::loop;
+		edge.kernel = 1;
+		edges.push_back(edge);
+	}
+	return edges;
+}
+
+std::vector<GraphEdge> odometryEdges(const std::vector<GraphEdge>& edges)
+{
+	std::vector<GraphEdge> kept;
+	for (const GraphEdge& edge : edges)
+		if (edge.kind == GraphEdge::Kind::odometry) kept.push_back(edge);
+	return kept;
+}
+
+std::vector<FinalPose> frontEndPoses(const FrontEndResult& front_end)
+{
+	std::vector<FinalPose> poses;
+	for (const TrackedScan& scan : front_end.scans)
+	{
+		FinalPose pose;
+		pose.T = scan.T;
+		pose.flag = scan.flag;
+		poses.push_back(pose);
+	}
+	return poses;
+}
+
+/** A scale that real wheels can have. */
+double plausible(const std::optional<double>& scale)
+{
+	return scale && *scale > 0.8 && *scale < 1.25 ? *scale : 1;
+}
+
+/** Chain edges that no scan supports: without them the refined graph could fall apart. */
+void keepTogether(const std::vector<GraphEdge>& chain, std::vector<GraphEdge>& kept)
+{
+	for (GraphEdge edge : chain)
+	{
+		if (edge.kind != GraphEdge::Kind::scan) continue;
+		edge.information = edge.information * 1e-3 + 1e-3 * Eigen::Matrix3d::Identity();
+		kept.push_back(edge);
+	}
+}
+}  // namespace
+
+Solution solve(const Session& session, const GroundTruthRunOptions& run, const std::function<bool(double, const std::string&)>& progress)
+{
+	const GroundTruthOptions& options = run.options;
+	const MotionModel uncalibrated(session, options.odometry);
+	const Scales scales(session.range_noise_m);
+	const auto held_out = [&](size_t i) { return run.holdout && i % kHoldoutStride == kHoldoutStride - 1; };
+	const auto stage = [&](double begin, double end, const std::string& what)
+	{ return [=, &progress](double fraction) { return progress(begin + fraction * (end - begin), what); }; };
+
+	Solution solution;
+	FrontEndResult front_end = trackScans(
+	    session, uncalibrated, options, scales, [&](size_t i) { return !held_out(i); }, stage(0.1, 0.4, "tracking"));
+	if (front_end.keys.empty())
+		throw Error(run.rawlogs.front() + ": none of the " + std::to_string(session.scans.size()) +
+		            " scans has enough valid beams on surfaces; check [scan] min_range_m and max_range_m");
+	solution.window_searches = front_end.searches;
+	const OdometryCalibration early = calibrateOdometry(session, frontEndPoses(front_end));
+	const MotionModel motion(session, options.odometry, plausible(early.distance_scale), plausible(early.turn_scale));
+	KeyScans& keys = solution.keys = keyScansOf(front_end);
+	std::vector<GraphEdge> chain = chainEdges(keys, front_end, motion, options.graph);
+	std::vector<GraphEdge> kept = odometryEdges(chain);
+	keepTogether(chain, kept);
+	const std::vector<GraphEdge> by_hand = handMade(run.extra_loops, keys, front_end);
+	chain.insert(chain.end(), by_hand.begin(), by_hand.end());
+
+	LoopCloser closer(keys, chain, options, scales);
+	solution.loops = closer.close(run.threads, stage(0.4, 0.6, "closing loops"));
+	solution.edges = refineKeys(keys, kept, options, scales, run.threads, stage(0.6, 0.85, "refining"));
+	const std::vector<Eigen::Matrix3d> covariances = graphCovariances(solution.edges, keys.poses);
+	solution.poses = placeAllScans(session, front_end, keys, covariances, motion, options, scales, held_out, run.threads,
+	                               stage(0.85, 0.95, "placing scans"));
+	for (size_t i = 1; i < solution.poses.size(); ++i)
+		solution.poses[i].covariance.diagonal().head<2>().array() += kSystematic_m * kSystematic_m;
+	if (run.holdout) solution.holdout = compareHoldout(solution.poses, held_out);
+	solution.calibration = calibrateOdometry(session, solution.poses);
+	if (run.align_axes) turnMap(-offAxes_rad(keys), solution);
+	return solution;
+}
+}  // namespace viwo::gt

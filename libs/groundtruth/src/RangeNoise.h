@@ -1,0 +1,11 @@
+#pragma once
+
+#include "Session.h"
+
+namespace viwo::gt
+{
+/** Standard deviation of a single range: of the second differences along beams, a robust estimate (most beams lie on smooth surfaces).
+ *  Never less than 5 mm.
+ */
+double rangeNoise_m(const std::vector<Scan>& scans);
+}  // namespace viwo::gt

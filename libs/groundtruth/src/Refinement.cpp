@@ -1,0 +1,96 @@
+#include "Refinement.h"
+
+#include "ParallelFor.h"
+
+#include <viwo/core/Error.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace viwo::gt
+{
+namespace
+{
+constexpr double kKernel = 3;
+constexpr int kFewestInliers = 25;
+constexpr double kMinRatio = 0.35;
+constexpr double kPresent2 = 0.2 * 0.2, kPresentYaw2 = 0.05 * 0.05;  // m^2, rad^2
+
+struct Near
+{
+	double cost;
+	size_t key;
+};
+
+/** Earlier keys that a key is registered with: the last few, and the nearest of former visits, spread over visits. */
+std::vector<size_t> partners(const KeyScans& keys, size_t k, const GraphOptions& options)
+{
+	std::vector<size_t> chosen;
+	const size_t wanted = static_cast<size_t>(options.neighbours);
+	for (const size_t back : {1, 2, 3, 5, 8, 12})
+		if (back <= k && chosen.size() < wanted) chosen.push_back(k - back);
+	std::vector<Near> near;
+	for (size_t j = 0; j + 12 < k; ++j)
+	{
+		const double distance_m = (keys.poses[j].p - keys.poses[k].p).norm();
+		if (distance_m > options.neighbour_distance_m) continue;
+		near.push_back({distance_m + 0.5 * std::abs(wrapped(keys.poses[j].yaw - keys.poses[k].yaw)), j});
+	}
+	std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.cost != b.cost ? a.cost < b.cost : a.key < b.key; });
+	for (const Near& candidate : near)
+	{
+		if (chosen.size() >= wanted) break;
+		const bool fresh =
+		    std::none_of(chosen.begin(), chosen.end(),
+		                 [&](size_t j) { return std::llabs(static_cast<long long>(j) - static_cast<long long>(candidate.key)) < 4; });
+		if (fresh) chosen.push_back(candidate.key);
+	}
+	return chosen;
+}
+
+/** Registrations of key k with its partners. */
+std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTruthOptions& options, const Scales& scales, bool first_round)
+{
+	std::vector<GraphEdge> edges;
+	PointIndex index;
+	RegistrationOptions registration = scales.registration;
+	if (!first_round) registration.first_radius_m = registration.last_radius_m;
+	index.build(keys.clouds[k], 2.5 * scales.voxel_m);
+	for (const size_t j : partners(keys, k, options.graph))
+	{
+		// The graph's pose holds directions that the two scans leave open; it does not count in the information.
+		const PosePrior present{between(keys.poses[k], keys.poses[j]),
+		                        Eigen::Vector3d(1 / kPresent2, 1 / kPresent2, 1 / kPresentYaw2).asDiagonal()};
+		const Registration r = registerCloud(keys.clouds[j], index, present.T, &present, registration);
+		if (r.inliers < kFewestInliers || r.inlierRatio() < kMinRatio) continue;
+		GraphEdge edge;
+		edge.a = k;
+		edge.b = j;
+		edge.T_ab = r.T;
+		if (r.weakest < options.matching.min_weakest) edge.T_ab.p += r.weakest_direction * r.weakest_direction.dot(present.T.p - r.T.p);
+		edge.information =
+		    r.trustedInformation(options.matching.min_weakest) / options.graph.inflation + 1e-6 * Eigen::Matrix3d::Identity();
+		edge.kind = k - j <= 12 ? GraphEdge::Kind::scan : GraphEdge::Kind::loop;
+		edge.kernel = kKernel;
+		edges.push_back(edge);
+	}
+	return edges;
+}
+}  // namespace
+
+std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, const GroundTruthOptions& options,
+                                  const Scales& scales, int threads, const std::function<bool(double)>& proceed)
+{
+	std::vector<GraphEdge> edges;
+	for (int round = 0; round < options.graph.rounds; ++round)
+	{
+		if (!proceed(static_cast<double>(round) / options.graph.rounds)) throw Error("interrupted: nothing was written");
+		std::vector<std::vector<GraphEdge>> found(keys.size());
+		parallelFor(keys.size(), threads, [&](size_t k) { found[k] = registered(keys, k, options, scales, round == 0); });
+		edges = kept;
+		for (const auto& of_key : found) edges.insert(edges.end(), of_key.begin(), of_key.end());
+		optimizeGraph(edges, keys.poses, 20);
+	}
+	return edges;
+}
+}  // namespace viwo::gt

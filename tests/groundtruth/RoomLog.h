@@ -1,0 +1,125 @@
+#pragma once
+
+#include <viwo/groundtruth/Pose2.h>
+#include <viwo/rawlog/MrptTime.h>
+#include <viwo/rawlog/RawlogWriter.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+/** A drive through a made-up place, as a rawlog of scans and odometry, with the exact poses. */
+namespace viwo::testing
+{
+struct Wall
+{
+	Eigen::Vector2d a, b;
+};
+
+/** A ring of corridors, 2 m wide around a block of 8 x 6 m, with niches and pillars that tell its sides apart. */
+inline std::vector<Wall> ringOfCorridors()
+{
+	std::vector<Wall> walls;
+	const auto box = [&](double x0, double y0, double x1, double y1)
+	{
+		const std::vector<Eigen::Vector2d> c{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+		for (size_t i = 0; i < 4; ++i) walls.push_back({c[i], c[(i + 1) % 4]});
+	};
+	box(0, 0, 8, 6);
+	box(-2, -2, 10, 8);
+	box(3, -1.99, 3.6, -1.6);
+	box(6.5, -0.4, 6.9, -0.01);
+	box(9.4, 2, 9.99, 2.5);
+	box(8.01, 4.1, 8.3, 4.3);
+	box(5, 7.5, 6.2, 7.99);
+	box(2, 6.01, 2.3, 6.5);
+	box(-1.99, 4, -1.7, 5);
+	box(-0.4, 1.5, -0.01, 1.7);
+	return walls;
+}
+
+struct RoomLog
+{
+	std::vector<Wall> walls = ringOfCorridors();
+	int scans = 600;
+	int beams = 181;
+	double noise_m = 0.01;
+	double distance_scale = 0.97;  //!< of odometry
+	double turn_scale = 0.97;
+	bool with_odometry = true;
+	uint64_t seed = 1;
+	/** Called for each scan before it is written; may change it, or the odometry that goes with it. */
+	std::function<void(int, std::vector<float>&, gt::Pose2&)> disturb = [](int, std::vector<float>&, gt::Pose2&) {};
+	std::function<bool(int)> has_scan = [](int) { return true; };
+
+	static constexpr int64_t kStart_ns = 1'600'000'000'000'000'000, kPeriod_ns = 100'000'000;
+	std::vector<gt::Pose2> truth;  //!< of the scans written
+
+	/** Twice around the block along a rectangle with rounded corners. */
+	static gt::Pose2 poseAt(double s)
+	{
+		const double a = 10, b = 8, r = 0.8, straight_a = a - 2 * r, straight_b = b - 2 * r, quarter = 0.5 * M_PI * r;
+		const double round = 2 * (straight_a + straight_b) + 4 * quarter;
+		s = std::fmod(s, round);
+		gt::Pose2 T(-1 + r, -1, 0);
+		for (int side = 0;; ++side)
+		{
+			const double straight = side % 2 == 0 ? straight_a : straight_b;
+			if (s <= straight) return T * gt::Pose2(s, 0, 0);
+			T = T * gt::Pose2(straight, 0, 0);
+			s -= straight;
+			const double angle = std::min(s, quarter) / r;
+			const gt::Pose2 arc(r * std::sin(angle), r * (1 - std::cos(angle)), angle);
+			if (s <= quarter) return T * arc;
+			T = T * arc;
+			s -= quarter;
+		}
+	}
+
+	float range(const gt::Pose2& T, double angle) const
+	{
+		const Eigen::Vector2d d(std::cos(T.yaw + angle), std::sin(T.yaw + angle));
+		double best = std::numeric_limits<double>::infinity();
+		for (const Wall& wall : walls)
+		{
+			const Eigen::Vector2d e = wall.b - wall.a, f = wall.a - T.p;
+			const double det = d.x() * e.y() - d.y() * e.x();
+			if (std::abs(det) < 1e-12) continue;
+			const double t = (f.x() * e.y() - f.y() * e.x()) / det, u = (f.x() * d.y() - f.y() * d.x()) / det;
+			if (t > 0 && u >= 0 && u <= 1 && t < best) best = t;
+		}
+		return static_cast<float>(best);
+	}
+
+	void write(const std::string& path)
+	{
+		truth.clear();
+		std::mt19937_64 random(seed);
+		std::normal_distribution<double> normal;
+		RawlogWriter writer(path);
+		gt::Pose2 odometry;
+		for (int i = 0; i < scans; ++i)
+		{
+			const gt::Pose2 T = poseAt(0.12 * i), last = poseAt(0.12 * std::max(0, i - 1));
+			const gt::Pose2 step = between(last, T);
+			odometry = odometry * gt::Pose2(step.p * distance_scale, step.yaw * turn_scale + 2e-4 * normal(random));
+			std::vector<float> ranges;
+			for (int k = 0; k < beams; ++k)
+			{
+				const double angle = beams > 1 ? -M_PI / 2 + M_PI * k / (beams - 1) : 0;
+				ranges.push_back(range(T, angle) + static_cast<float>(noise_m * normal(random)));
+			}
+			disturb(i, ranges, odometry);
+			const int64_t t_ns = kStart_ns + i * kPeriod_ns;
+			if (with_odometry) writer.write(makeOdometry(t_ns, {}, {}, odometry.p.x(), odometry.p.y(), odometry.yaw));
+			if (!has_scan(i)) continue;
+			writer.write(makeScan(t_ns, ranges, M_PI, 30, Pose3(), "LIDAR"));
+			truth.push_back(T);
+		}
+		writer.close();
+	}
+};
+}  // namespace viwo::testing
