@@ -91,7 +91,8 @@ TEST_F(Experiments, TablesAreWrittenInAllTheirForms)
 	}
 	EXPECT_GT(first_m, 0.01);
 	EXPECT_LT(first_m, 0.02 * 30);
-	for (const Json& average : loadJson(out_.file("table2.json")).at("results").at("averages"))
+	const Json table2 = loadJson(out_.file("table2.json"));
+	for (const Json& average : table2.at("results").at("averages"))
 	{
 		EXPECT_DOUBLE_EQ(average.at("aligned_s").get<double>(), 2.0);
 		EXPECT_DOUBLE_EQ(average.at("first_pose_s").get<double>(), 0.5);
