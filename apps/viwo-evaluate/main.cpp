@@ -115,10 +115,7 @@ void writeHtml(const Arguments& a, const Trajectory& reference, const std::vecto
 	const std::vector<std::string> names = legendNames(a.estimates);
 	for (size_t i = 0; i < a.estimates.size(); ++i)
 		if (std::filesystem::exists(a.estimates[i])) estimates.push_back({names[i], Trajectory::loadTum(a.estimates[i])});
-	AtomicFile file(a.html);
-	file.stream() << evaluationHtml(a.reference, a.options, reports,
-	                                trajectoryPictures(reference, estimates, a.options, PlotColours::page));
-	file.commit();
+	writeAtomically(a.html, evaluationHtml(a.reference, a.options, reports, trajectoryPictures(reference, estimates, a.options, PlotColours::page)));
 }
 
 /** One line for each limit that is not kept. */

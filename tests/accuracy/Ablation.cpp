@@ -1,4 +1,6 @@
-#include "Ablation.h"
+#include "Groups.h"
+
+#include <viwo/experiments/Request.h>
 
 #include <algorithm>
 
@@ -36,7 +38,15 @@ double lowestCoverage(const std::vector<Score>& scores)
 	for (const Score& score : scores) lowest = std::min(lowest, score.coverage);
 	return lowest;
 }
-}  // namespace
+
+class Ablation : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Ablation::bars() const
 {
@@ -75,5 +85,11 @@ std::vector<Row> Ablation::judge(const Runner& runner) const
 		rows.push_back(atMost(bars()[rows.size()], worst(all), kDiverged_percent, "%", detail));
 	}
 	return rows;
+}
+}  // namespace
+
+std::unique_ptr<Group> ablation(const Settings& settings)
+{
+	return std::make_unique<Ablation>(settings);
 }
 }  // namespace viwo::accuracy

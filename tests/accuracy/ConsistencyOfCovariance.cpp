@@ -1,4 +1,4 @@
-#include "ConsistencyOfCovariance.h"
+#include "Groups.h"
 
 #include <viwo/evaluation/Consistency.h>
 #include <viwo/odometry/OdometryOptions.h>
@@ -49,7 +49,15 @@ void accumulate(Nees& sum, const Nees& more)
 	sum.degrees_of_freedom += more.degrees_of_freedom;
 	sum.poses += more.poses;
 }
-}  // namespace
+
+class ConsistencyOfCovariance : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> ConsistencyOfCovariance::bars() const
 {
@@ -81,5 +89,11 @@ std::vector<Row> ConsistencyOfCovariance::judge(const Runner& runner) const
 	const std::string note = invalid == 0 ? "" : "; " + std::to_string(invalid) + " covariances are not positive definite";
 	return {within(bars()[0], position, listOf("each run", positions, 1, "") + note),
 	        within(bars()[1], yaw, listOf("each run", yaws, 1, ""))};
+}
+}  // namespace
+
+std::unique_ptr<Group> consistencyOfCovariance(const Settings& settings)
+{
+	return std::make_unique<ConsistencyOfCovariance>(settings);
 }
 }  // namespace viwo::accuracy

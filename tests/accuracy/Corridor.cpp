@@ -1,4 +1,6 @@
-#include "Corridor.h"
+#include "Groups.h"
+
+#include <viwo/experiments/Request.h>
 
 #include "Drives.h"
 
@@ -14,7 +16,15 @@ double percent(const Score& s)
 {
 	return s.percent();
 }
-}  // namespace
+
+class Corridor : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Corridor::bars() const
 {
@@ -41,5 +51,11 @@ std::vector<Row> Corridor::judge(const Runner& runner) const
 	        atMost(bars()[2], 100 * worstExcess(viwo_m, vio_m), 0, "cm", list + "; " + listOf("vio", vio_m, 100, "cm") + problemsOf(vio)),
 	        atMost(bars()[3], 100 * worstExcess(viwo_m, wheel_m), 1, "cm",
 	               list + "; " + listOf("wheel", wheel_m, 100, "cm") + problemsOf(wheel))};
+}
+}  // namespace
+
+std::unique_ptr<Group> corridor(const Settings& settings)
+{
+	return std::make_unique<Corridor>(settings);
 }
 }  // namespace viwo::accuracy

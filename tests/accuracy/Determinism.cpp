@@ -1,4 +1,4 @@
-#include "Determinism.h"
+#include "Groups.h"
 
 #include <fstream>
 #include <iterator>
@@ -45,7 +45,15 @@ Row compare(const std::string& name, const Outcome& a, const Outcome& b)
 	}
 	return atMost(name, different, 0, "", detail);
 }
-}  // namespace
+
+class Determinism : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Determinism::bars() const
 {
@@ -61,5 +69,11 @@ std::vector<Row> Determinism::judge(const Runner& runner) const
 {
 	return {compare(bars()[0], runner.outcome(first()), runner.outcome(second())),
 	        compare(bars()[1], runner.outcome(first()), runner.outcome(besideLoad()))};
+}
+}  // namespace
+
+std::unique_ptr<Group> determinism(const Settings& settings)
+{
+	return std::make_unique<Determinism>(settings);
 }
 }  // namespace viwo::accuracy

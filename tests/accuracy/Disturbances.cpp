@@ -1,4 +1,4 @@
-#include "Disturbances.h"
+#include "Groups.h"
 
 #include "Drives.h"
 
@@ -24,7 +24,15 @@ double ate(const Score& s)
 {
 	return s.ate_m;
 }
-}  // namespace
+
+class Disturbances : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Disturbances::bars() const
 {
@@ -53,5 +61,11 @@ std::vector<Row> Disturbances::judge(const Runner& runner) const
 		                      listOf("disturbed", disturbed, 100, "cm") + "; " + listOf("clean", clean, 100, "cm") + problemsOf(scores)));
 	}
 	return rows;
+}
+}  // namespace
+
+std::unique_ptr<Group> disturbances(const Settings& settings)
+{
+	return std::make_unique<Disturbances>(settings);
 }
 }  // namespace viwo::accuracy

@@ -36,7 +36,4 @@ class Group
    protected:
 	Settings settings_;
 };
-
-/** All groups in the order of the table. */
-std::vector<std::unique_ptr<Group>> allGroups(const Settings& settings);
 }  // namespace viwo::accuracy

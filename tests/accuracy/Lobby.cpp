@@ -1,4 +1,6 @@
-#include "Lobby.h"
+#include "Groups.h"
+
+#include <viwo/experiments/Request.h>
 
 #include "Drives.h"
 
@@ -10,7 +12,15 @@ double ate(const Score& s)
 {
 	return s.ate_m;
 }
-}  // namespace
+
+class Lobby : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Lobby::bars() const
 {
@@ -35,5 +45,11 @@ std::vector<Row> Lobby::judge(const Runner& runner) const
 	        atMost(bars()[2], 100 * worstExcess(viwo_m, vio_m), 0, "cm", list + "; " + listOf("vio", vio_m, 100, "cm") + problemsOf(vio)),
 	        atMost(bars()[3], 100 * worstExcess(viwo_m, wheel_m), 0, "cm",
 	               list + "; " + listOf("wheel", wheel_m, 100, "cm") + problemsOf(wheel))};
+}
+}  // namespace
+
+std::unique_ptr<Group> lobby(const Settings& settings)
+{
+	return std::make_unique<Lobby>(settings);
 }
 }  // namespace viwo::accuracy

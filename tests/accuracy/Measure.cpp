@@ -45,14 +45,6 @@ Score scoreOf(const Outcome& outcome, double required_coverage)
 	return score;
 }
 
-double median(std::vector<double> values)
-{
-	if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-	std::sort(values.begin(), values.end());
-	const size_t n = values.size();
-	return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 double worst(const std::vector<double>& values)
 {
 	double result = -std::numeric_limits<double>::infinity();

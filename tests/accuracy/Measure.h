@@ -31,7 +31,6 @@ constexpr double kRequiredCoverage = 0.97;
 /** @param required_coverage 0 for runs that others are compared with. */
 Score scoreOf(const Outcome& outcome, double required_coverage = kRequiredCoverage);
 
-double median(std::vector<double> values);
 double worst(const std::vector<double>& values);
 
 /** "viwo 3.1 2.9 4.0 cm": the figures of the seeds, in their order. */

@@ -1,4 +1,4 @@
-#include "Real.h"
+#include "Groups.h"
 
 #include <viwo/app/Program.h>
 
@@ -45,7 +45,15 @@ Row eurocRow(const std::string& name, const Outcome& outcome)
 	for (const StampedPose& pose : trajectory.poses()) moved_m = std::max(moved_m, (pose.T.p - trajectory.poses().front().T.p).norm());
 	return atMost(name, 100 * moved_m, 5, "cm", std::to_string(trajectory.size()) + " poses");
 }
-}  // namespace
+
+class Real : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Real::bars() const
 {
@@ -81,5 +89,11 @@ std::vector<Row> Real::judge(const Runner& runner) const
 	    listOf("viwo", viwo, 1, "") + "; " + listOf("wheel", wheel, 1, "") + "; " + listOf("vio", vio, 1, "%") + problems;
 	return {atMost(bars()[0], worst(viwo), 0.4, "%", list), atMost(bars()[1], worst(ratios), 1.1, "", listOf("", ratios, 1, "")),
 	        eurocRow(bars()[2], runner.outcome(eurocRun(settings_)))};
+}
+}  // namespace
+
+std::unique_ptr<Group> real(const Settings& settings)
+{
+	return std::make_unique<Real>(settings);
 }
 }  // namespace viwo::accuracy

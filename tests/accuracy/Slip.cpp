@@ -1,4 +1,4 @@
-#include "Slip.h"
+#include "Groups.h"
 
 #include <algorithm>
 
@@ -49,7 +49,15 @@ double smallest(const std::vector<double>& values)
 	for (const double value : values) negated.push_back(-value);
 	return -worst(negated);
 }
-}  // namespace
+
+class Slip : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Slip::bars() const
 {
@@ -87,5 +95,11 @@ std::vector<Row> Slip::judge(const Runner& runner) const
 		rows.push_back(atMost(bars()[rows.size()], worst(without), 0, "", listOf("", without, 1, "")));
 	}
 	return rows;
+}
+}  // namespace
+
+std::unique_ptr<Group> slip(const Settings& settings)
+{
+	return std::make_unique<Slip>(settings);
 }
 }  // namespace viwo::accuracy

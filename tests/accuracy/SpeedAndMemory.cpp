@@ -1,4 +1,4 @@
-#include "SpeedAndMemory.h"
+#include "Groups.h"
 
 #include <algorithm>
 
@@ -34,7 +34,15 @@ std::string stagesOf(const Json& summary)
 	}
 	return text;
 }
-}  // namespace
+
+class SpeedAndMemory : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> SpeedAndMemory::bars() const
 {
@@ -60,5 +68,11 @@ std::vector<Row> SpeedAndMemory::judge(const Runner& runner) const
 	        atMost(bars()[1], summary.at("stages_ms").at("frame").at("p95").get<double>(), 60, "ms", ""),
 	        atMost(bars()[2], long_summary.at("peak_rss_mb").get<double>(), 400, "MB", memory),
 	        atMost(bars()[3], rss_mb.at(9) - rss_mb.at(1), 10, "MB", memory)};
+}
+}  // namespace
+
+std::unique_ptr<Group> speedAndMemory(const Settings& settings)
+{
+	return std::make_unique<SpeedAndMemory>(settings);
 }
 }  // namespace viwo::accuracy

@@ -1,4 +1,4 @@
-#include "Standing.h"
+#include "Groups.h"
 
 #include <viwo/core/Time.h>
 
@@ -52,7 +52,15 @@ std::pair<double, double> movement(const Outcome& outcome)
 	if (first == nullptr || secondsBetween(first->t_ns, end_ns) < 590) return {NAN, NAN};
 	return m;
 }
-}  // namespace
+
+class Standing : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Standing::bars() const
 {
@@ -78,5 +86,11 @@ std::vector<Row> Standing::judge(const Runner& runner) const
 	const std::string ate = "ATE of the whole run " + std::to_string(100 * score.ate_m) + " cm";
 	return {atMost(bars()[0], 100 * distance_m, 1, "cm", ate), atMost(bars()[1], angle_deg, 0.2, "deg", ""),
 	        atMost(bars()[2], medians.at(9) / medians.at(1), 1.2, "", listOf("median of each minute", medians, 1, "ms"))};
+}
+}  // namespace
+
+std::unique_ptr<Group> standing(const Settings& settings)
+{
+	return std::make_unique<Standing>(settings);
 }
 }  // namespace viwo::accuracy

@@ -1,4 +1,4 @@
-#include "Starts.h"
+#include "Groups.h"
 
 #include <viwo/core/Error.h>
 #include <viwo/sim/ImuModel.h>
@@ -101,7 +101,15 @@ Start measure(const SimulatedDrive& drive, uint64_t seed, const Outcome& outcome
 	start.ate_cm = 100 * ateAfter_m(outcome, t_ns);
 	return start;
 }
-}  // namespace
+
+class Starts : public Group
+{
+   public:
+	using Group::Group;
+	std::vector<std::string> bars() const override;
+	void plan(Runner& runner) const override;
+	std::vector<Row> judge(const Runner& runner) const override;
+};
 
 std::vector<std::string> Starts::bars() const
 {
@@ -150,5 +158,11 @@ std::vector<Row> Starts::judge(const Runner& runner) const
 	for (size_t i = 0; i < limits.size(); ++i)
 		rows.push_back(atMost(bars()[i], worst(all[i]), limits[i].limit, limits[i].unit, details[i]));
 	return rows;
+}
+}  // namespace
+
+std::unique_ptr<Group> starts(const Settings& settings)
+{
+	return std::make_unique<Starts>(settings);
 }
 }  // namespace viwo::accuracy

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "Group.h"
+#include "Groups.h"
 
 using namespace viwo;
 using namespace viwo::accuracy;

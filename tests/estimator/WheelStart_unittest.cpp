@@ -1,3 +1,5 @@
+#include <viwo/core/Scalars.h>
+
 #include <SimulatedDrive.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +15,6 @@ using test::DriveSetup;
 using test::measured;
 using test::optionsOf;
 
-constexpr double kDegree = M_PI / 180;
 
 /** Errors of the state at the first pose. */
 struct StartErrors

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/Scalars.h>
 #include <viwo/importers/CarmenImporter.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
@@ -23,7 +24,6 @@ using namespace viwo::testing;
 
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 
 std::string beams(size_t count)
 {
@@ -83,9 +83,9 @@ TEST(CarmenImporter, FirstBeamStepAndApertureByNumberOfBeams)
 		ASSERT_EQ(content.scans.size(), 1u);
 		const auto& scan = *content.scans[0];
 		EXPECT_EQ(scan.getScanSize(), c.beams);
-		EXPECT_NEAR(scan.aperture, c.aperture_deg * kDeg, 1e-6);
-		EXPECT_NEAR(beamAngle(scan, 0), -90 * kDeg, 1e-6) << c.beams;
-		EXPECT_NEAR(beamAngle(scan, 1), (-90 + c.step_deg) * kDeg, 1e-6) << c.beams;
+		EXPECT_NEAR(scan.aperture, c.aperture_deg * kDegree, 1e-6);
+		EXPECT_NEAR(beamAngle(scan, 0), -90 * kDegree, 1e-6) << c.beams;
+		EXPECT_NEAR(beamAngle(scan, 1), (-90 + c.step_deg) * kDegree, 1e-6) << c.beams;
 		EXPECT_TRUE(scan.rightToLeft);
 		EXPECT_FLOAT_EQ(scan.getScanRange(7), 1.07f);
 	}
@@ -115,7 +115,7 @@ TEST(CarmenImporter, RobotLaserLineCarriesItsOwnGeometry)
 {
 	const TempFolder folder;
 	// Robot at (1, 2) looking along y, laser 0.2 m ahead of it; 3 beams from -10 deg in steps of 10 deg, one beyond 30 m.
-	const std::string line = "ROBOTLASER1 0 " + std::to_string(-10 * kDeg) + " 0.35 " + std::to_string(10 * kDeg) +
+	const std::string line = "ROBOTLASER1 0 " + std::to_string(-10 * kDegree) + " 0.35 " + std::to_string(10 * kDegree) +
 	                         " 30 0.01 0 3 4 5 31 2 7 7 1 2.2 " + std::to_string(M_PI / 2) + " 1 2 " + std::to_string(M_PI / 2) +
 	                         " 0.3 0.1 1 1 0 123.5 host 0.5\n";
 	const Content content = import(folder, line);
@@ -123,8 +123,8 @@ TEST(CarmenImporter, RobotLaserLineCarriesItsOwnGeometry)
 	const auto& scan = *content.scans[0];
 	EXPECT_NEAR(scan.sensorPose.x(), 0.2, 1e-6);
 	EXPECT_NEAR(scan.sensorPose.y(), 0, 1e-6);
-	EXPECT_NEAR(beamAngle(scan, 0), -10 * kDeg, 1e-5);
-	EXPECT_NEAR(beamAngle(scan, 2), 10 * kDeg, 1e-5);
+	EXPECT_NEAR(beamAngle(scan, 0), -10 * kDegree, 1e-5);
+	EXPECT_NEAR(beamAngle(scan, 2), 10 * kDegree, 1e-5);
 	EXPECT_TRUE(scan.getScanRangeValidity(1));
 	EXPECT_FALSE(scan.getScanRangeValidity(2));
 	EXPECT_EQ(nanosecondsOf(scan.timestamp), 123500000000);

@@ -156,6 +156,20 @@ TEST_P(RendererCorners, ofOutlinesStandWhereTheCameraModelProjectsThem)
 
 INSTANTIATE_TEST_SUITE_P(Lenses, RendererCorners, testing::Values(plumbBob(), kannalaBrandt()));
 
+/** Mean and deviation of the pixels of a 640 pixels wide image. */
+std::pair<double, double> statistics(const RadianceImage& image, const cv::Rect& part)
+{
+	double sum = 0, sum2 = 0, n = 0;
+	for (int y = part.y; y < part.y + part.height; ++y)
+		for (int x = part.x; x < part.x + part.width; ++x, ++n)
+		{
+			const double value = image.pixels[static_cast<size_t>(y * 640 + x)];
+			sum += value;
+			sum2 += value * value;
+		}
+	return {sum / n, std::sqrt(std::max(0.0, sum2 / n - sum / n * (sum / n)))};
+}
+
 TEST(Renderer, fineCheckerFarAwayIsGreyAndQuiet)
 {
 	// Squares of 2 mm at 2 m and more: a quarter of a pixel at most.
@@ -163,15 +177,7 @@ TEST(Renderer, fineCheckerFarAwayIsGreyAndQuiet)
 	for (double yaw : {0.0, 0.03, 0.2})
 	{
 		const RadianceImage image = renderer.radiance(lookingAlongX({-0.3, 0.1, 0}, yaw));
-		double sum = 0, sum2 = 0, n = 0;
-		for (int y = 180; y < 300; ++y)
-			for (int x = 240; x < 400; ++x, ++n)
-			{
-				const double value = image.pixels[static_cast<size_t>(y * 640 + x)];
-				sum += value;
-				sum2 += value * value;
-			}
-		const double mean = sum / n, deviation = std::sqrt(std::max(0.0, sum2 / n - mean * mean));
+		const auto [mean, deviation] = statistics(image, {240, 180, 160, 120});
 		std::cout << "[measured] fine checker: mean " << mean << " deviation " << deviation << "\n";
 		EXPECT_NEAR(mean, 0.5, 0.005);
 		EXPECT_LT(deviation, 0.01);
@@ -184,15 +190,7 @@ TEST(Renderer, fineFloorTowardsTheHorizonIsGreyAndQuiet)
 	std::vector<Surface> s{{{-1, -40, 0}, Vector3d::UnitX(), Vector3d::UnitY(), 80, 80, 0, 0, false}};
 	Renderer renderer(World({checkerMaterial(0.02)}, s), CameraModel(640, 480, 250, 250, 319.5, 239.5));
 	const RadianceImage image = renderer.radiance(lookingAlongX({0.004, 0.003, 0.3}, 0.2));
-	double sum = 0, sum2 = 0, n = 0;
-	for (size_t y = 244; y < 255; ++y)
-		for (size_t x = 100; x < 540; ++x, ++n)
-		{
-			const double value = image.pixels[y * 640 + x];
-			sum += value;
-			sum2 += value * value;
-		}
-	const double mean = sum / n, deviation = std::sqrt(std::max(0.0, sum2 / n - mean * mean));
+	const auto [mean, deviation] = statistics(image, {100, 244, 440, 11});
 	std::cout << "[measured] fine floor: mean " << mean << " deviation " << deviation << " (0.3 unfiltered)\n";
 	EXPECT_NEAR(mean, 0.5, 0.005);
 	EXPECT_LT(deviation, 0.03);

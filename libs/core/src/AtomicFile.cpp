@@ -42,4 +42,11 @@ void AtomicFile::commit()
 		throw Error(path_ + ": cannot rename " + temporary_path_ + ": " + std::strerror(errno));
 	committed_ = true;
 }
+
+void writeAtomically(const std::string& path, const std::string& content)
+{
+	AtomicFile file(path);
+	file.stream() << content;
+	file.commit();
+}
 }  // namespace viwo

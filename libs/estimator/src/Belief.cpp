@@ -1,7 +1,6 @@
 #include "Belief.h"
 
-#include "Scalars.h"
-
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>

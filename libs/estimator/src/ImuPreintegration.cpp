@@ -1,12 +1,12 @@
 #include "ImuPreintegration.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 
 #include <cassert>
 
 #include "RotatingIntegral.h"
-#include "Scalars.h"
 #include "StateOrder.h"
 
 namespace viwo

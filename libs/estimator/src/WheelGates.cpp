@@ -1,10 +1,10 @@
 #include "WheelGates.h"
 
 #include "ImuPreintegration.h"
-#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "Window.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 

@@ -1,8 +1,8 @@
 #include "WheelOdometry.h"
 
 #include "SampleBuffer.h"
-#include "Scalars.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 

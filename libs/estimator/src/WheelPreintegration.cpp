@@ -1,12 +1,12 @@
 #include "WheelPreintegration.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 
 #include <cassert>
 #include <cmath>
 
 #include "RotatingIntegral.h"
-#include "Scalars.h"
 
 namespace viwo
 {

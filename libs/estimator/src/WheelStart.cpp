@@ -2,13 +2,13 @@
 
 #include "ImuPreintegration.h"
 #include "IntervalFactory.h"
-#include "Scalars.h"
 #include "WheelOdometry.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/GaugePrior.h"
 #include "residuals/StatePrior.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 
 #include <cmath>

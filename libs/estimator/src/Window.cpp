@@ -1,7 +1,6 @@
 #include "Window.h"
 
 #include "ImuPreintegration.h"
-#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/ImuResidual.h"
@@ -12,6 +11,8 @@
 #include "residuals/StandstillResidual.h"
 #include "residuals/StatePrior.h"
 #include "residuals/WheelResidual.h"
+
+#include <viwo/core/Scalars.h>
 
 #include <ceres/loss_function.h>
 

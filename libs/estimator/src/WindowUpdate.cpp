@@ -1,12 +1,12 @@
 #include "WindowUpdate.h"
 
 #include "ImuPreintegration.h"
-#include "Scalars.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/LinearPrior.h"
 #include "residuals/RandomWalkResidual.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>

@@ -35,9 +35,7 @@ std::string toText(const Json& json)
 
 void saveJson(const std::string& path, const Json& json)
 {
-	AtomicFile file(path);
-	file.stream() << toText(json);
-	file.commit();
+	writeAtomically(path, toText(json));
 }
 
 Json loadJson(const std::string& path)

@@ -164,8 +164,6 @@ std::string toSvg(const std::vector<PlotCurve>& curves, const std::string& title
 
 void saveSvg(const std::string& path, const std::vector<PlotCurve>& curves, const std::string& title)
 {
-	AtomicFile file(path);
-	file.stream() << toSvg(curves, title);
-	file.commit();
+	writeAtomically(path, toSvg(curves, title));
 }
 }  // namespace viwo

@@ -1,3 +1,4 @@
+#include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/experiments/Accuracy.h>
 #include <viwo/experiments/Experiments.h>
@@ -32,7 +33,7 @@ class Writer
 	void put(const std::string& name, const std::string& content)
 	{
 		result_.files.push_back(folder_ + "/" + name);
-		writeFile(result_.files.back(), content);
+		writeAtomically(result_.files.back(), content);
 	}
 
    private:

@@ -1,6 +1,7 @@
 #include <viwo/experiments/Runner.h>
 
 #include <mrpt/config/CConfigFileMemory.h>
+#include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/SharedFiles.h>
 #include <viwo/odometry/OdometryOptions.h>
@@ -110,7 +111,7 @@ Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
 	if (recipe.from_s > 0) job.command.insert(job.command.end(), {"--from", std::to_string(recipe.from_s)});
 	if (recipe.to_s > 0) job.command.insert(job.command.end(), {"--to", std::to_string(recipe.to_s)});
 	job.log_stem = folder + "/program";
-	if (keep) job.succeeded = [=] { writeFile(inputs, content); };
+	if (keep) job.succeeded = [=] { writeAtomically(inputs, content); };
 	job.alone = recipe.alone || recipe.loaded;
 	job.loaded = recipe.loaded;
 	job.cost_s = recipe.cost_s;

@@ -1,3 +1,4 @@
+#include <viwo/core/AtomicFile.h>
 #include <viwo/experiments/SimulationCache.h>
 
 #include <filesystem>
@@ -47,7 +48,7 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 	job.cost_s = recipe.cost_s;
 	job.succeeded = [recipe, folder, making]
 	{
-		writeFile(making + kContentFile, recipe.content);
+		writeAtomically(making + kContentFile, recipe.content);
 		fs::rename(making, folder);
 	};
 	return job;

@@ -1,9 +1,9 @@
 #include "TextFiles.h"
 
-#include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 
 namespace viwo::experiments
@@ -13,13 +13,6 @@ std::string readFile(const std::string& path)
 	std::ifstream file(path, std::ios::binary);
 	if (!file) throw Error(path + ": cannot be read");
 	return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void writeFile(const std::string& path, const std::string& content)
-{
-	AtomicFile file(path);
-	file.stream() << content;
-	file.commit();
 }
 
 std::string hashOf(const std::string& content)

@@ -7,9 +7,6 @@ namespace viwo::experiments
 /** @throws Error when it cannot be read. */
 std::string readFile(const std::string& path);
 
-/** Written to a temporary name and renamed. @throws Error when it cannot be written. */
-void writeFile(const std::string& path, const std::string& content);
-
 /** FNV-1a, 64 bit, as 16 hexadecimal digits: names for content. */
 std::string hashOf(const std::string& content);
 }  // namespace viwo::experiments

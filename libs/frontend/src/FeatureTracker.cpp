@@ -129,13 +129,18 @@ class FeatureTracker::Impl
 
 	void follow(const FlowImage& current, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
 	{
-		dropUnpredictable(R_Cprev_Ccur);
+		std::vector<Track> expected;
 		std::vector<cv::Point2f> from, to;
-		for (const Track& t : tracks_)
+		for (Track& t : tracks_)
 		{
+			const std::optional<cv::Point2f> prediction = predicted(t, R_Cprev_Ccur);
+			if (!prediction) continue;
 			from.push_back(t.pixel);
-			to.push_back(predicted(t, R_Cprev_Ccur).value());
+			to.push_back(*prediction);
+			expected.push_back(std::move(t));
 		}
+		stats_.lost_flow += static_cast<int>(tracks_.size() - expected.size());
+		tracks_ = std::move(expected);
 		const std::vector<FlowStatus> status = followCorners(previous_, current, from, options_, to);
 
 		std::vector<Track> followed;
@@ -170,6 +175,7 @@ class FeatureTracker::Impl
 		stats_.tracked = static_cast<int>(tracks_.size());
 	}
 
+	/** Nothing where the rotation takes the corner out of the image. */
 	std::optional<cv::Point2f> predicted(const Track& t, const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur) const
 	{
 		if (!R_Cprev_Ccur) return t.pixel;
@@ -177,14 +183,6 @@ class FeatureTracker::Impl
 		const std::optional<Eigen::Vector2d> pixel = camera_.project(bearing);
 		if (!pixel || !camera_.contains(*pixel)) return std::nullopt;
 		return cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()));
-	}
-
-	void dropUnpredictable(const std::optional<Eigen::Quaterniond>& R_Cprev_Ccur)
-	{
-		const auto leaves = [&](const Track& t) { return !predicted(t, R_Cprev_Ccur); };
-		const auto end = std::remove_if(tracks_.begin(), tracks_.end(), leaves);
-		stats_.lost_flow += static_cast<int>(tracks_.end() - end);
-		tracks_.erase(end, tracks_.end());
 	}
 
 	bool isInside(const cv::Point2f& p) const { return camera_.contains({p.x, p.y}, options_.border_px); }

@@ -1,6 +1,7 @@
 #include "FrontEnd.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@ namespace viwo::gt
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 constexpr int kFewestPoints = 15;
 
 /** Keys of the recent past around the robot, as one thin cloud. */
@@ -123,7 +123,7 @@ class Tracker
 		{
 			++searches;
 			const auto found =
-			    map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m, options_.matching.search_angle_deg * kDeg, 0.4);
+			    map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m, options_.matching.search_angle_deg * kDegree, 0.4);
 			if (found)
 			{
 				const Registration second = registerCloud(cloud, map_.index(), found->T, nullptr, scales_.registration);
@@ -145,7 +145,7 @@ class Tracker
 	{
 		if (result.keys.empty()) return true;
 		const Pose2 step = between(result.scans[result.keys.back()].T, T);
-		return step.p.norm() > options_.matching.key_distance_m || std::abs(step.yaw) > options_.matching.key_angle_deg * kDeg;
+		return step.p.norm() > options_.matching.key_distance_m || std::abs(step.yaw) > options_.matching.key_angle_deg * kDegree;
 	}
 
 	const Session& session_;

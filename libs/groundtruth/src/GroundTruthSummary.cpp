@@ -1,7 +1,7 @@
 #include "GroundTruthSummary.h"
 
-#include <sys/resource.h>
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/PeakMemory.h>
 #include <viwo/core/Time.h>
 
 #include <nlohmann/json.hpp>
@@ -17,12 +17,6 @@ Json orNull(const std::optional<double>& value, double factor = 1)
 	return value ? Json(*value * factor) : Json(nullptr);
 }
 
-double peakMemory_mb()
-{
-	rusage usage{};
-	getrusage(RUSAGE_SELF, &usage);
-	return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 }  // namespace
 
 void writeSummary(const std::string& path, const GroundTruthRunOptions& options, const Session& session, const Solution& solution,
@@ -66,8 +60,6 @@ void writeSummary(const std::string& path, const GroundTruthRunOptions& options,
 	j["wall_time_s"] = result.wall_time_s;
 	j["cpu_time_s"] = result.cpu_time_s;
 	j["peak_memory_mb"] = peakMemory_mb();
-	AtomicFile file(path);
-	file.stream() << j.dump(2) << "\n";
-	file.commit();
+	writeAtomically(path, j.dump(2) + "\n");
 }
 }  // namespace viwo::gt

@@ -3,6 +3,7 @@
 #include "ParallelFor.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +13,6 @@ namespace viwo::gt
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 constexpr double kLinkLength_m = 0.3;  //!< of a loop, as a way along which the graph drifts
 constexpr double kPendingWay_m = 15;   //!< loops this far apart may confirm each other
 constexpr double kKernel = 3;
@@ -71,7 +71,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(size_t submap) const
 		Candidate c;
 		c.key = other;
 		c.half_width_m = std::min(o.max_search_m, 0.3 + o.drift_per_m * way[other]);
-		c.half_angle_rad = std::min(o.max_search_deg, 4 + o.drift_deg_per_m * way[other]) * kDeg;
+		c.half_angle_rad = std::min(o.max_search_deg, 4 + o.drift_deg_per_m * way[other]) * kDegree;
 		c.distance_m = (keys_.poses[key].p - keys_.poses[other].p).norm();
 		if (c.distance_m < c.half_width_m + 0.5 * o.submap_reach_m) found.push_back(c);
 	}
@@ -128,7 +128,7 @@ std::optional<LoopCloser::Loop> LoopCloser::compare(const Cloud& query, size_t k
 	loop.edge.kind = GraphEdge::Kind::loop;
 	loop.edge.kernel = kKernel;
 	const Pose2 correction = between(T_guess, r.T);
-	loop.small = correction.p.norm() < 0.3 && std::abs(correction.yaw) < 2 * kDeg && candidate.half_width_m < 1;
+	loop.small = correction.p.norm() < 0.3 && std::abs(correction.yaw) < 2 * kDegree && candidate.half_width_m < 1;
 	return loop;
 }
 
@@ -141,7 +141,7 @@ bool LoopCloser::agree(const GraphEdge& a, const GraphEdge& b) const
 	const Pose2 by_b = keys_.poses[b.a] * b.T_ab;
 	const double refs_m = (keys_.poses[a.a].p - keys_.poses[b.a].p).norm();
 	const Pose2 d = between(by_a, by_b);
-	return d.p.norm() < 0.25 + 0.03 * (way_m + refs_m) && std::abs(d.yaw) < (2.5 + 0.2 * way_m) * kDeg;
+	return d.p.norm() < 0.25 + 0.03 * (way_m + refs_m) && std::abs(d.yaw) < (2.5 + 0.2 * way_m) * kDegree;
 }
 
 void LoopCloser::accept(const GraphEdge& edge, LoopCounts& counts)
@@ -151,7 +151,7 @@ void LoopCloser::accept(const GraphEdge& edge, LoopCounts& counts)
 	links_[edge.b].emplace_back(edge.a, kLinkLength_m);
 	++counts.accepted;
 	const Pose2 error = between(edge.T_ab, between(keys_.poses[edge.a], keys_.poses[edge.b]));
-	if (error.p.norm() > 0.05 || std::abs(error.yaw) > 0.5 * kDeg) moved_ = true;
+	if (error.p.norm() > 0.05 || std::abs(error.yaw) > 0.5 * kDegree) moved_ = true;
 }
 
 void LoopCloser::consider(const Loop& loop, LoopCounts& counts)

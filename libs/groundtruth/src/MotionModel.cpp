@@ -1,19 +1,14 @@
 #include "MotionModel.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 namespace viwo::gt
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 /** What even a motion of zero leaves open: odometry's own quantisation and the stamps' jitter. */
-constexpr double kFloor_m = 0.005, kFloor_rad = 0.15 * kDeg;
-
-double square(double x)
-{
-	return x * x;
-}
+constexpr double kFloor_m = 0.005, kFloor_rad = 0.15 * kDegree;
 }  // namespace
 
 std::optional<Motion2> MotionModel::between(size_t a, size_t b) const
@@ -25,12 +20,12 @@ std::optional<Motion2> MotionModel::between(size_t a, size_t b) const
 	motion.T_ab.p *= distance_scale_;
 	motion.T_ab.yaw *= turn_scale_;
 	const double way_m = motion.T_ab.p.norm(), turn_rad = std::abs(motion.T_ab.yaw);
-	double yaw_variance = square(kFloor_rad) + square(options_.angle_per_rad * turn_rad) + square(options_.angle_deg_per_m * kDeg * way_m);
+	double yaw_variance = square(kFloor_rad) + square(options_.angle_per_rad * turn_rad) + square(options_.angle_deg_per_m * kDegree * way_m);
 	if (session_.has_imu && sa.gyro_yaw && sb.gyro_yaw)
 	{
 		motion.T_ab.yaw = wrapped(*sb.gyro_yaw - *sa.gyro_yaw);
 		yaw_variance =
-		    square(0.02 * kDeg) + square(options_.gyro_deg_per_sqrt_s * kDeg) * secondsBetween(sa.t_ns, sb.t_ns) + square(0.01 * turn_rad);
+		    square(0.02 * kDegree) + square(options_.gyro_deg_per_sqrt_s * kDegree) * secondsBetween(sa.t_ns, sb.t_ns) + square(0.01 * turn_rad);
 	}
 	const double xy_variance = square(kFloor_m) + square(options_.distance_per_m * way_m) + square(options_.distance_per_rad * turn_rad);
 	motion.information.diagonal() << 1 / xy_variance, 1 / xy_variance, 1 / yaw_variance;

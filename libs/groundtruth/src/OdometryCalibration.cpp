@@ -1,5 +1,6 @@
 #include "OdometryCalibration.h"
 
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@ namespace viwo::gt
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 constexpr double kWindow_s = 1.0;
 constexpr size_t kFewest = 20;
 
@@ -78,10 +78,10 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 	for (const Step& step : stepsOf(session, poses))
 	{
 		const double way = step.odometry.p.norm(), yaw = step.odometry.yaw;
-		if (way > 0.05 && std::abs(yaw) < 5 * kDeg) distance.push_back(step.scan.p.norm() / way);
-		if (std::abs(yaw) > 10 * kDeg) turn.push_back(step.scan.yaw / yaw);
+		if (way > 0.05 && std::abs(yaw) < 5 * kDegree) distance.push_back(step.scan.p.norm() / way);
+		if (std::abs(yaw) > 10 * kDegree) turn.push_back(step.scan.yaw / yaw);
 		// Straight ahead O moves along its x axis; a lidar that is turned to the left makes the motion look turned to the right.
-		if (way > 0.1 && std::abs(yaw) < 2 * kDeg && step.odometry.p.x() > 0)
+		if (way > 0.1 && std::abs(yaw) < 2 * kDegree && step.odometry.p.x() > 0)
 			direction.push_back(-wrapped(std::atan2(step.scan.p.y(), step.scan.p.x()) - 0.5 * step.scan.yaw));
 	}
 	calibration.distance_scale = median(distance);

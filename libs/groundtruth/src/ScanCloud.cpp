@@ -1,12 +1,13 @@
 #include "ScanCloud.h"
 
+#include <viwo/core/Scalars.h>
+
 #include <algorithm>
 
 namespace viwo::gt
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 constexpr int kMaxBeams = 25;  //!< on either side in a fit
 
 struct Beam
@@ -26,8 +27,8 @@ std::vector<Beam> beamsOf(const Scan& scan, const ScanOptions& options, const Tw
 	{
 		const double r = static_cast<double>(scan.ranges_m[i]);
 		const double angle = scan.first_angle_rad + scan.step_rad * static_cast<double>(i);
-		if (r <= 0 || r < options.min_range_m || r > far_m || angle < options.first_angle_deg * kDeg ||
-		    angle > options.last_angle_deg * kDeg)
+		if (r <= 0 || r < options.min_range_m || r > far_m || angle < options.first_angle_deg * kDegree ||
+		    angle > options.last_angle_deg * kDegree)
 			continue;
 		const Eigen::Vector3d in_O = R_OL * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0) + scan.T_OL.p;
 		const double dt_s = options.scan_duration_s * (static_cast<double>(i) / n - options.stamp_position);

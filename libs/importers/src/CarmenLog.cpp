@@ -4,6 +4,7 @@
 #include "TextLines.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
 #include <viwo/core/TimeText.h>
 
 #include <cmath>
@@ -12,7 +13,6 @@ namespace viwo
 {
 namespace
 {
-constexpr double kDeg = M_PI / 180;
 /** A SICK LMS reports errors and "no return" as 81.83 m and more. */
 constexpr double kMaxRange_m = 80;
 
@@ -90,8 +90,8 @@ std::vector<float> ranges(Words& words)
 
 double stepOf(size_t beams)
 {
-	if (beams == 180 || beams == 181) return kDeg;
-	if (beams == 360 || beams == 361) return 0.5 * kDeg;
+	if (beams == 180 || beams == 181) return kDegree;
+	if (beams == 360 || beams == 361) return 0.5 * kDegree;
 	return beams > 1 ? M_PI / static_cast<double>(beams - 1) : 0;
 }
 

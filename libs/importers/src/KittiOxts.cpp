@@ -3,6 +3,7 @@
 #include "CsvFile.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
 
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr double kEarthRadius_m = 6378137;
 /** Up to wu, the last field of interest to anybody here. */
 constexpr size_t kOxtsFields = 23;
-constexpr double kDegree = M_PI / 180;
 
 Eigen::Vector3d mercator(const OxtsPacket& packet, double scale)
 {

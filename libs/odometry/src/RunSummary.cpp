@@ -1,6 +1,7 @@
 #include "RunSummary.h"
 
-#include <sys/resource.h>
+#include <viwo/core/AtomicFile.h>
+#include <viwo/core/PeakMemory.h>
 #include <viwo/core/Time.h>
 
 #include <nlohmann/json.hpp>
@@ -10,13 +11,6 @@ namespace viwo
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-double peakRss_mb()
-{
-	rusage usage{};
-	getrusage(RUSAGE_SELF, &usage);
-	return static_cast<double>(usage.ru_maxrss) / 1024;
-}
 
 Json stagesJson(const StageTimes& times)
 {
@@ -151,11 +145,9 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["observations"] = observationsJson(odometry, counts);
 	j["wall_time_s"] = result.wall_time_s;
 	j["realtime_factor"] = result.wall_time_s > 0 ? result.duration_s / result.wall_time_s : 0.0;
-	j["peak_rss_mb"] = peakRss_mb();
+	j["peak_rss_mb"] = peakMemory_mb();
 	j["stages_ms"] = stagesJson(odometry.stageTimes());
 	j["minutes"] = minutesJson(minutes, odometry.stageTimes());
-	AtomicFile file(path);
-	file.stream() << j.dump(2) << "\n";
-	file.commit();
+	writeAtomically(path, j.dump(2) + "\n");
 }
 }  // namespace viwo

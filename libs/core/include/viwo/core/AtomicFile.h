@@ -28,4 +28,7 @@ class AtomicFile
 	std::ofstream stream_;
 	bool committed_ = false;
 };
+
+/** A whole AtomicFile at once. @throws Error when it cannot be written. */
+void writeAtomically(const std::string& path, const std::string& content);
 }  // namespace viwo
