@@ -1,3 +1,5 @@
+#include "Relations.h"
+
 #include <viwo/app/Program.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/evaluation/PlotSvg.h>
@@ -59,6 +61,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    "  viwo-evaluate -r truth.tum -e wheel/trajectory.tum -e viwo/trajectory.tum --json errors.json --svg paths.svg\n"
 	    "  viwo-evaluate -r truth.tum -e a/trajectory.tum -e b/trajectory.tum --html report.html\n"
 	    "  viwo-evaluate -r truth.tum -e out/trajectory.tum --max-ate 0.05 --min-coverage 0.97 --nees\n"
+	    "  viwo-evaluate relations -r intel.relations -e intel/trajectory.tum --stamps intel_stamps.csv\n"
 	    "Exit status: 0 done, 1 failed or over a limit, 2 bad usage.");
 }
 
@@ -115,7 +118,8 @@ void writeHtml(const Arguments& a, const Trajectory& reference, const std::vecto
 	const std::vector<std::string> names = legendNames(a.estimates);
 	for (size_t i = 0; i < a.estimates.size(); ++i)
 		if (std::filesystem::exists(a.estimates[i])) estimates.push_back({names[i], Trajectory::loadTum(a.estimates[i])});
-	writeAtomically(a.html, evaluationHtml(a.reference, a.options, reports, trajectoryPictures(reference, estimates, a.options, PlotColours::page)));
+	writeAtomically(
+	    a.html, evaluationHtml(a.reference, a.options, reports, trajectoryPictures(reference, estimates, a.options, PlotColours::page)));
 }
 
 /** One line for each limit that is not kept. */
@@ -172,5 +176,9 @@ int main(int argc, char** argv)
 	CLI::App cli{"Absolute and relative errors of estimated trajectories against a reference", "viwo-evaluate"};
 	Arguments arguments;
 	declare(cli, arguments);
-	return app::run(cli, argc, argv, [&] { return evaluateAll(arguments); });
+	RelationArguments relation_arguments;
+	CLI::App* relations = declareRelations(cli, relation_arguments);
+	// The subcommand has files of its own.
+	relations->preparse_callback([&cli](size_t) { cli.get_option("-r")->required(false), cli.get_option("-e")->required(false); });
+	return app::run(cli, argc, argv, [&] { return relations->parsed() ? evaluateRelations(relation_arguments) : evaluateAll(arguments); });
 }
