@@ -1,11 +1,10 @@
+#include <viwo/core/Svg.h>
 #include <viwo/evaluation/Chart.h>
 #include <viwo/evaluation/Table.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "Svg.h"
 
 namespace viwo
 {

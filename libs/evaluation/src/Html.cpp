@@ -1,6 +1,5 @@
+#include <viwo/core/Svg.h>
 #include <viwo/evaluation/Html.h>
-
-#include "Svg.h"
 
 namespace viwo
 {

@@ -1,4 +1,5 @@
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/Svg.h>
 #include <viwo/evaluation/PlotSvg.h>
 #include <viwo/evaluation/Table.h>
 
@@ -7,8 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <set>
-
-#include "Svg.h"
 
 namespace viwo
 {

@@ -1,11 +1,9 @@
+#include <viwo/core/Svg.h>
 #include <viwo/evaluation/Table.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
-
-#include "Svg.h"
 
 namespace viwo
 {
@@ -133,13 +131,5 @@ std::string Table::toHtml() const
 		html += "</tr>\n";
 	}
 	return html + "</tbody>\n</table>\n";
-}
-
-std::string fixed(double value, int decimals)
-{
-	if (std::isnan(value)) return "-";
-	char text[64];
-	std::snprintf(text, sizeof text, "%.*f", decimals, value);
-	return text;
 }
 }  // namespace viwo

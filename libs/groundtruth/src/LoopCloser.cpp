@@ -1,8 +1,7 @@
 #include "LoopCloser.h"
 
-#include "ParallelFor.h"
-
 #include <viwo/core/Error.h>
+#include <viwo/core/ParallelFor.h>
 #include <viwo/core/Scalars.h>
 
 #include <algorithm>

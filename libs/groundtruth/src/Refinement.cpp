@@ -1,8 +1,7 @@
 #include "Refinement.h"
 
-#include "ParallelFor.h"
-
 #include <viwo/core/Error.h>
+#include <viwo/core/ParallelFor.h>
 
 #include <algorithm>
 #include <cstdlib>

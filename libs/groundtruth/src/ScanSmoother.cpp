@@ -1,8 +1,7 @@
 #include "ScanSmoother.h"
 
-#include "ParallelFor.h"
-
 #include <viwo/core/Error.h>
+#include <viwo/core/ParallelFor.h>
 #include <viwo/core/Time.h>
 
 #include <Eigen/LU>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <viwo/core/NumberText.h>
+
 #include <set>
 #include <string>
 #include <vector>
@@ -36,7 +38,4 @@ class Table
 	std::vector<std::vector<std::string>> rows_;
 	std::vector<std::set<size_t>> bold_;  //!< of each row
 };
-
-/** Fixed decimals; "-" for NaN. */
-std::string fixed(double value, int decimals);
 }  // namespace viwo

@@ -1,6 +1,5 @@
-#include "Svg.h"
-
-#include <viwo/evaluation/Table.h>
+#include <viwo/core/NumberText.h>
+#include <viwo/core/Svg.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ParallelFor.h"
+#include <viwo/core/ParallelFor.h>
 
 #include <atomic>
 #include <exception>
@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace viwo::gt
+namespace viwo
 {
 void parallelFor(size_t count, int threads, const std::function<void(size_t)>& body)
 {
@@ -39,4 +39,4 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
 	for (std::thread& thread : pool) thread.join();
 	if (failure) std::rethrow_exception(failure);
 }
-}  // namespace viwo::gt
+}  // namespace viwo
