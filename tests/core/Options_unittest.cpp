@@ -86,6 +86,8 @@ TEST_F(OptionsFile, LoadsEveryType)
 
 TEST_F(OptionsFile, AbsentKeysAndSectionsKeepTheirValues)
 {
+	load("");
+	EXPECT_EQ(basket.weight_kg, 0.1);
 	load("[basket]\ncount = 4\n");
 	EXPECT_EQ(basket.count, 4);
 	EXPECT_EQ(basket.weight_kg, 0.1);

@@ -163,6 +163,24 @@ TEST(Estimator, WithoutWheelsVisionStarts)
 	EXPECT_TRUE(result.finite());
 }
 
+/** On a constant arc vision and IMU do not observe the scale; but the wheel factors of the window will. */
+TEST(Estimator, VisionStartsOnAConstantArcWhenWheelsFollow)
+{
+	EstimatorOptions options = optionsOf(Mode::viwo);
+	options.factors.wheels_in_initialization = false;
+	for (int seed = 1; seed <= 2; ++seed)
+	{
+		const Drive drive(DriveSetup(kArc, seed));
+		const DriveResult result = runDrive(drive, options);
+		ASSERT_GT(result.trajectory.size(), 50u);
+		const TrajectoryErrors errors = errorsOf(drive, result);
+		measured("first pose", result.first_pose_s, "s; ATE " + std::to_string(1e3 * errors.ate_xyz_m) + " mm");
+		EXPECT_LT(result.first_pose_s, 5);
+		EXPECT_LT(errors.ate_xyz_m, 0.015 * errors.length_m);
+		EXPECT_EQ(result.counters.reinitializations, 0);
+	}
+}
+
 /** A base whose first reading comes after the first image. */
 TEST(Estimator, WheelsThatBeginLaterDoNotDelayTheStart)
 {

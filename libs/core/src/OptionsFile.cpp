@@ -31,6 +31,9 @@ std::string readText(const std::string& path)
 {
 	std::ifstream file(path, std::ios::binary);
 	std::ostringstream text;
+	// An empty file sets nothing, but the insertion of no characters counts as a failure of the stream that takes them.
+	const bool empty = file.good() && file.peek() == std::ifstream::traits_type::eof() && !file.bad();
+	if (empty) return {};
 	if (file) text << file.rdbuf();
 	if (!file || file.bad() || text.fail()) throw Error(path + ": cannot read this configuration file; check its name and permissions");
 	return text.str();

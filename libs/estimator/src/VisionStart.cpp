@@ -9,6 +9,7 @@
 #include <viwo/sfm/StructureFromMotion.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace viwo
@@ -44,7 +45,7 @@ void applyStates(Window& w, const std::vector<NavState>& states)
 bool startFromVision(Window& w, IntervalFactory& intervals, const Pose3& T_WO_latest)
 {
 	if (w.frames.size() < kMinFrames) return false;
-	bool all_wheels = w.options.useWheels() && w.options.factors.wheels_in_initialization;
+	bool all_wheels = w.options.useWheels();
 	std::vector<FeatureFrame> features{w.frames.front()->features};
 	std::vector<ImuPreintegration> imu;
 	std::vector<WheelPreintegration> wheels;
@@ -56,20 +57,25 @@ bool startFromVision(Window& w, IntervalFactory& intervals, const Pose3& T_WO_la
 		imu.push_back(*frame.interval.imu);
 		all_wheels = all_wheels && frame.interval.wheels;
 	}
-	for (size_t i = 1; i < w.frames.size() && all_wheels; ++i) wheels.push_back(*w.frames[i]->interval.wheels);
+	const bool aligns_wheels = all_wheels && w.options.factors.wheels_in_initialization;
+	for (size_t i = 1; i < w.frames.size() && aligns_wheels; ++i) wheels.push_back(*w.frames[i]->interval.wheels);
 
 	const SfmResult sfm = StructureFromMotion(sfmOptions(w)).reconstruct(features, gyroRotations(w));
 	if (sfm.status != SfmStatus::ok) return false;
 	Calibration calibration = w.calibration;
 	calibration.T_OC = calibration.T_OB * w.belief.T_BC;
-	const Initializer initializer(calibration, w.belief, w.options.noise.gravity_m_s2, w.options.initializer);
+	InitializerOptions options = w.options.initializer;
+	// The wheel factors of the window will tell the scale: it need not be known here.
+	if (all_wheels && w.options.factors.wheel_factor) options.max_scale_sigma_without_wheels = std::numeric_limits<double>::infinity();
+	const Initializer initializer(calibration, w.belief, w.options.noise.gravity_m_s2, options);
 	const InitializerResult aligned = initializer.align(sfm, imu, wheels);
 	if (aligned.status != InitializerStatus::ok) return false;
 
 	const std::vector<NavState> states = initializer.navStates(aligned, imu, w.frames.size() - 1, T_WO_latest);
 	applyStates(w, states);
 	intervals.relinearizeAt(w, w.belief.b_a, aligned.gyro.b_g);
-	const double velocity_sigma_m_s = std::max(w.options.priors.velocity_m_s, kVelocityShare * states.front().v_WB.norm());
+	const double share = std::max(kVelocityShare, aligned.alignment.scale_sigma);
+	const double velocity_sigma_m_s = std::max(w.options.priors.velocity_m_s, share * states.front().v_WB.norm());
 	addStartPriors(w, w.latest(), velocity_sigma_m_s);
 	return true;
 }

@@ -6,8 +6,8 @@
 
 namespace viwo
 {
-/** A text or binary file that appears under its name only when it is whole: written beside it under a temporary name and renamed by commit().
- *  Without commit() the destructor keeps what is there under the final name untouched and removes the temporary file.
+/** A text or binary file that appears under its name only when it is whole: written beside it under a temporary name and renamed by
+ * commit(). Without commit() the destructor keeps what is there under the final name untouched and removes the temporary file.
  */
 class AtomicFile
 {

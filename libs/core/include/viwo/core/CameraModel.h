@@ -20,16 +20,16 @@ class CameraModel
 	};
 
 	CameraModel() = default;
-	CameraModel(int width_px, int height_px, double fx_px, double fy_px, double cx_px, double cy_px, Distortion distortion = Distortion::none,
-		const std::array<double, 5>& coefficients = {});
+	CameraModel(int width_px, int height_px, double fx_px, double fy_px, double cx_px, double cy_px,
+	            Distortion distortion = Distortion::none, const std::array<double, 5>& coefficients = {});
 
 	/** Pixel of a point P_C (metres, optical frame); nothing where it lies behind the camera, or beyond the angle at which the
 	 *  polynomial turns back on itself. The pixel may be outside of the image: see contains().
 	 */
 	std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& P_C) const;
 
-	/** Unit ray of a pixel, by Newton iterations to 1e-12 on the normalised plane. For a pixel farther out than the lens polynomial reaches,
-	 *  the ray at its turning point.
+	/** Unit ray of a pixel, by Newton iterations to 1e-12 on the normalised plane. For a pixel farther out than the lens polynomial
+	 * reaches, the ray at its turning point.
 	 */
 	Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
 
@@ -53,6 +53,6 @@ class CameraModel
 	double fx_px_ = 0, fy_px_ = 0, cx_px_ = 0, cy_px_ = 0;
 	Distortion distortion_ = Distortion::none;
 	std::array<double, 5> coefficients_{};
-	double max_radius_ = 0;	 //!< of the undistorted normalised plane, up to which r_d(r) increases
+	double max_radius_ = 0;  //!< of the undistorted normalised plane, up to which r_d(r) increases
 };
 }  // namespace viwo

@@ -10,7 +10,7 @@ namespace viwo
 struct FeatureObservation
 {
 	uint64_t id = 0;
-	Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  //!< as measured, lens distortion included
+	Eigen::Vector2d pixel = Eigen::Vector2d::Zero();       //!< as measured, lens distortion included
 	Eigen::Vector3d bearing_C = Eigen::Vector3d::UnitZ();  //!< unit ray in the optical frame
 };
 

@@ -9,7 +9,7 @@ namespace viwo
 struct ImuSample
 {
 	int64_t t_ns = 0;
-	Eigen::Vector3d acc_m_s2 = Eigen::Vector3d::Zero();	 //!< specific force: +|g| upwards at rest
+	Eigen::Vector3d acc_m_s2 = Eigen::Vector3d::Zero();  //!< specific force: +|g| upwards at rest
 	Eigen::Vector3d gyro_rad_s = Eigen::Vector3d::Zero();
 };
 

@@ -32,8 +32,9 @@ class OptionsReader
 	OptionsReader(const mrpt::config::CConfigFileBase& source, std::string section);
 
 	void operator()(const char* key, double& value, const char* comment, double min = -std::numeric_limits<double>::infinity(),
-		double max = std::numeric_limits<double>::infinity());
-	void operator()(const char* key, int& value, const char* comment, int min = std::numeric_limits<int>::min(), int max = std::numeric_limits<int>::max());
+	                double max = std::numeric_limits<double>::infinity());
+	void operator()(const char* key, int& value, const char* comment, int min = std::numeric_limits<int>::min(),
+	                int max = std::numeric_limits<int>::max());
 	void operator()(const char* key, bool& value, const char* comment);
 	void operator()(const char* key, std::string& value, const char* comment);
 	/** Space-separated numbers, any count. */

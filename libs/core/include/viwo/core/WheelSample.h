@@ -46,10 +46,10 @@ inline WheelSample wheelSampleFromTwist(int64_t t_ns, const WheelTwist& twist, d
  */
 struct WheelNoise
 {
-	double s0_m_s_sqrtHz = 5e-4;  //!< > 0
-	double k_sqrtHz = 0.015;	 //!< growth with speed: (m/s)/(m/s)/sqrt(Hz)
-	double lateral_m_s_sqrtHz = 2e-3;  //!< side slip
-	double vertical_m_s_sqrtHz = 2e-3;	//!< vertical motion over an uneven floor
-	double tilt_rad_s_sqrtHz = 5e-3;  //!< roll and pitch rates over an uneven floor
+	double s0_m_s_sqrtHz = 5e-4;        //!< > 0
+	double k_sqrtHz = 0.015;            //!< growth with speed: (m/s)/(m/s)/sqrt(Hz)
+	double lateral_m_s_sqrtHz = 2e-3;   //!< side slip
+	double vertical_m_s_sqrtHz = 2e-3;  //!< vertical motion over an uneven floor
+	double tilt_rad_s_sqrtHz = 5e-3;    //!< roll and pitch rates over an uneven floor
 };
 }  // namespace viwo
