@@ -18,7 +18,10 @@ using test::runDrive;
 
 constexpr double kHole_s = 6.02, kHoleEnd_s = 9.02;
 
-double positionSigma(const FrameEstimate& e) { return std::sqrt(e.covariance.topLeftCorner<3, 3>().trace()); }
+double positionSigma(const FrameEstimate& e)
+{
+	return std::sqrt(e.covariance.topLeftCorner<3, 3>().trace());
+}
 
 /** Yaw about W's z. */
 double yawSigma(const FrameEstimate& e)
@@ -64,7 +67,8 @@ TEST(EstimatorRestart, CovarianceTellsTheErrorsAcrossIt)
 			count += of_run_count;
 		}
 		const std::string name = ", mode " + modeNames()[static_cast<size_t>(mode)];
-		measured("ANEES of position and yaw from the restart on, per degree of freedom, " + std::to_string(runs) + " runs" + name, sum / count, "");
+		measured("ANEES of position and yaw from the restart on, per degree of freedom, " + std::to_string(runs) + " runs" + name,
+		         sum / count, "");
 		measured("least growth of the deviation over the hole: position", least_position, "times, yaw " + std::to_string(least_yaw));
 		EXPECT_GT(sum / count, 0.3);
 		EXPECT_LT(sum / count, 3);
@@ -89,7 +93,8 @@ TEST(EstimatorRestart, VioKnowsThatItDoesNotKnow)
 	ASSERT_GE(result.counters.reinitializations, 1);
 	const auto [before, after] = around(drive, result, 6.02, 8.02);
 	ASSERT_TRUE(before.has_pose && after.has_pose);
-	const Pose3 moved = before.T_WO.inverse() * after.T_WO, truly = drive.motion.at_ns(before.t_ns).T_WO.inverse() * drive.motion.at_ns(after.t_ns).T_WO;
+	const Pose3 moved = before.T_WO.inverse() * after.T_WO,
+	            truly = drive.motion.at_ns(before.t_ns).T_WO.inverse() * drive.motion.at_ns(after.t_ns).T_WO;
 	measured("vio over a hole of 2 s: error", (moved.p - truly.p).norm(), "m, deviation " + std::to_string(positionSigma(after)));
 	EXPECT_GT(positionSigma(after), 0.5 * (moved.p - truly.p).norm());
 	EXPECT_GT(yawSigma(after), 0.5 * std::abs(yawOf(moved.R) - yawOf(truly.R)));
@@ -125,8 +130,10 @@ TEST(EstimatorRestart, WheelsCarryOnThroughAHoleOfTheImu)
 				EXPECT_GE(positionSigma(e), last_sigma_m) << t_s;
 				last_sigma_m = positionSigma(e);
 			}
-			measured(modeNames()[static_cast<size_t>(mode)] + ", IMU away for " + std::to_string(hole_s) + " s: poses from the wheels", reckoned, "");
-			measured("  ATE", 1e3 * ate_m, "mm, clean " + std::to_string(1e3 * clean_m) + "; largest step " + std::to_string(1e3 * result.largestStep_m()));
+			measured(modeNames()[static_cast<size_t>(mode)] + ", IMU away for " + std::to_string(hole_s) + " s: poses from the wheels",
+			         reckoned, "");
+			measured("  ATE", 1e3 * ate_m,
+			         "mm, clean " + std::to_string(1e3 * clean_m) + "; largest step " + std::to_string(1e3 * result.largestStep_m()));
 			EXPECT_GE(reckoned, static_cast<int>(10 * hole_s) - 5);
 			EXPECT_LT(ate_m, 2 * clean_m + 0.01);
 			EXPECT_LT(result.largestStep_m(), 0.05);
@@ -159,8 +166,10 @@ TEST(EstimatorRestart, CalibrationAndBiasesOutlastAHole)
 	runDrive(drive, optionsOf(Mode::viwo), look);
 	ASSERT_TRUE(lost && found_again);
 	const auto difference = [](const CalibrationEstimate& c) { return c.wheels.k_right - c.wheels.k_left; };
-	measured("difference of the wheels before a hole", 1e3 * difference(before), "per mille, in it " + std::to_string(1e3 * difference(at_loss)) + ", after it " + std::to_string(1e3 * difference(after)));
-	measured("change of the gyro bias", 1e3 * (state_after.b_g - state_before.b_g).norm(), "mrad/s; of the accelerometer's " + std::to_string((state_after.b_a - state_before.b_a).norm()) + " m/s^2");
+	measured("difference of the wheels before a hole", 1e3 * difference(before),
+	         "per mille, in it " + std::to_string(1e3 * difference(at_loss)) + ", after it " + std::to_string(1e3 * difference(after)));
+	measured("change of the gyro bias", 1e3 * (state_after.b_g - state_before.b_g).norm(),
+	         "mrad/s; of the accelerometer's " + std::to_string((state_after.b_a - state_before.b_a).norm()) + " m/s^2");
 	EXPECT_GT(std::abs(difference(before)), 1e-3);
 	EXPECT_EQ(at_loss.wheels.k_left, before.wheels.k_left);
 	EXPECT_EQ(at_loss.wheels.k_right, before.wheels.k_right);
@@ -182,7 +191,8 @@ TEST(EstimatorRestart, AfterADivergenceFromNominalValues)
 	const DriveResult result = runDrive(drive, optionsOf(Mode::viwo),
 	                                    [&](const Estimator& estimator, const FrameEstimate&)
 	                                    {
-		                                    if (!lost && estimator.counters().reinitializations > 0) right_after = estimator.calibration().wheels;
+		                                    if (!lost && estimator.counters().reinitializations > 0)
+			                                    right_after = estimator.calibration().wheels;
 		                                    lost = estimator.counters().reinitializations > 0;
 	                                    });
 	ASSERT_TRUE(lost);

@@ -7,8 +7,10 @@ namespace viwo
 TEST(GaugePrior, Jacobians)
 {
 	test::Random random(21);
-	test::expectJacobians("GaugePrior at identity", GaugePrior(Pose3(), Eigen::Vector3d(-0.2, 0.1, -0.3), 1e-2, 1e-2), test::sampleStates({BlockShape::pose()}, random));
-	test::expectJacobians("GaugePrior", GaugePrior(random.pose(0.8, 2), random.vector3(0.3), 1e-2, 1e-2), test::sampleStates({BlockShape::pose()}, random));
+	test::expectJacobians("GaugePrior at identity", GaugePrior(Pose3(), Eigen::Vector3d(-0.2, 0.1, -0.3), 1e-2, 1e-2),
+	                      test::sampleStates({BlockShape::pose()}, random));
+	test::expectJacobians("GaugePrior", GaugePrior(random.pose(0.8, 2), random.vector3(0.3), 1e-2, 1e-2),
+	                      test::sampleStates({BlockShape::pose()}, random));
 }
 
 TEST(GaugePrior, MeasuresPositionAndYawAboutTheWorldsUp)

@@ -132,7 +132,8 @@ CovarianceDifference differenceToMonteCarlo(const ImuNoise& noise, int64_t t_beg
 	SampleCovariance<15> drawn;
 	for (int i = 0; i < monteCarloDraws(draws); ++i) drawn.add(stream.draw(errors));
 	const CovarianceDifference d = compareCovariances<15>(p.covariance(), drawn.value());
-	std::cout << "[measured] " << p.dt_s() << " s, " << p.samples().size() << " samples, " << monteCarloDraws(draws) << " draws: " << d << "\n";
+	std::cout << "[measured] " << p.dt_s() << " s, " << p.samples().size() << " samples, " << monteCarloDraws(draws) << " draws: " << d
+	          << "\n";
 	return d;
 }
 

@@ -38,7 +38,8 @@ Statistics run(PlanarDrive drive, int seeds)
 		drive.wheels.track_m = 0.23 * (1 + priors.track_relative * normal(generator));
 		InitializerWindow w(drive, Pose3(forwardOpticalAxes(), {0.25, 0.02, 0.3}),
 		                    {0.3 / 250, true, 1000003 * static_cast<uint64_t>(seed)});
-		const InitializerResult result = Initializer(w.calibration, nominalBelief(EstimatorOptions(), w.calibration), 9.81, {}).align(w.sfm, w.imu, w.wheels);
+		const InitializerResult result =
+		    Initializer(w.calibration, nominalBelief(EstimatorOptions(), w.calibration), 9.81, {}).align(w.sfm, w.imu, w.wheels);
 		if (result.status != InitializerStatus::ok) continue;
 		++s.ok;
 		const InitializerErrors e = errorsOf(result, w);

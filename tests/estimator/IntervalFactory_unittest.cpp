@@ -83,7 +83,8 @@ TEST(IntervalFactory, EachHoleCountsOnce)
 {
 	const Streams streams(1.0, 2.5);
 	IntervalFactory factory(EstimatorOptions(), {1, 1, 0.23});
-	for (int64_t t_ns = 500'000'000; t_ns < 2'900'000'000; t_ns += kFrame_ns) factory.between(streams.imu, streams.wheels, t_ns, t_ns + kFrame_ns);
+	for (int64_t t_ns = 500'000'000; t_ns < 2'900'000'000; t_ns += kFrame_ns)
+		factory.between(streams.imu, streams.wheels, t_ns, t_ns + kFrame_ns);
 	EXPECT_EQ(factory.imuGaps(), 1);
 	EXPECT_EQ(factory.wheelGaps(), 1);
 }

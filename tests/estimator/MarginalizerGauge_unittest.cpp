@@ -4,12 +4,12 @@ namespace viwo
 {
 namespace
 {
-using test::DenseSystem;
-using test::makeMarginalizer;
-using test::tangentSize;
 using test::concatenate;
-using test::oldestOf;
+using test::DenseSystem;
 using test::LongMatrix;
+using test::makeMarginalizer;
+using test::oldestOf;
+using test::tangentSize;
 
 /** Translation in x, y, z and yaw about W's vertical, in the tangent coordinates of each block at its linearisation point. */
 Eigen::MatrixXd gaugeDirections(const std::vector<BlockShape>& shapes, const std::vector<const double*>& at)

@@ -6,13 +6,13 @@ namespace viwo
 {
 namespace
 {
-using test::DenseSystem;
 using test::ceresSystem;
-using test::makeMarginalizer;
-using test::errorOf;
-using test::tangentSize;
 using test::concatenate;
+using test::DenseSystem;
+using test::errorOf;
+using test::makeMarginalizer;
 using test::oldestOf;
+using test::tangentSize;
 
 /** rho = s + s^2: curves upwards, so that Triggs' second-order term is used. */
 class Upward : public ceres::LossFunction
@@ -58,8 +58,9 @@ TEST(Marginalizer, AppliesLossesAsCeresDoes)
 		std::vector<Factor> factors;
 		for (const Factor& f : window.factorsOf(0))
 			if (f.loss) factors.push_back(f);
-		factors.push_back(
-		    {std::make_shared<GaugePrior>(poseFromBlock(window.poses[0].data()), Eigen::Vector3d::Zero(), 0.1, 0.1), nullptr, {window.poses[0].data()}});
+		factors.push_back({std::make_shared<GaugePrior>(poseFromBlock(window.poses[0].data()), Eigen::Vector3d::Zero(), 0.1, 0.1),
+		                   nullptr,
+		                   {window.poses[0].data()}});
 		factors.push_back(window.startPriors()[1]);
 		const auto eliminated = concatenate({window.poses[0].data()}, window.landmarksOf(0));
 		const MarginalizationResult result = makeMarginalizer(factors, eliminated).run();

@@ -63,7 +63,8 @@ TEST(SlipGate, EveryBurstIsOneEvent)
 			}
 }
 
-/** A slip that goes on is found again in an interval that is in part inflated already: what was merged into it later must not be left out. */
+/** A slip that goes on is found again in an interval that is in part inflated already: what was merged into it later must not be left out.
+ */
 TEST(SlipGate, MergedIntervalsAreInflatedPartByPart)
 {
 	const WheelIntrinsics k;

@@ -15,7 +15,6 @@ using test::DriveSetup;
 using test::measured;
 using test::optionsOf;
 
-
 /** Errors of the state at the first pose. */
 struct StartErrors
 {

@@ -75,7 +75,8 @@ TEST_F(EvaluateProgram, DrawsTheAlignedPaths)
 	const std::string svg = readFile(folder_.file("paths.svg"));
 	EXPECT_EQ(svg.compare(0, 4, "<svg"), 0);
 	EXPECT_NE(svg.find("moved (ATE 0.000 m)"), std::string::npos) << svg.substr(0, 400);
-	const ProgramResult failed = run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--svg", folder_.file("ref.tum") + "/paths.svg"});
+	const ProgramResult failed =
+	    run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--svg", folder_.file("ref.tum") + "/paths.svg"});
 	EXPECT_EQ(failed.status, 1);
 	EXPECT_EQ(failed.errorLines(), 1u) << failed.err;
 	EXPECT_NE(failed.err.find("paths.svg"), std::string::npos) << failed.err;
@@ -90,14 +91,16 @@ TEST_F(EvaluateProgram, WritesAPage)
 	size_t pictures = 0;
 	for (size_t at = html.find("<svg"); at != std::string::npos; at = html.find("<svg", at + 1)) ++pictures;
 	EXPECT_EQ(pictures, 3u) << "paths, error over time, drift over distance";
-	for (const char* part : {"moved.tum", "none.tum", "ATE x-y-z", "Drift", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
-	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--html", folder_.file("ref.tum") + "/x.html"}).status, 1);
+	for (const char* part : {"moved.tum", "none.tum", "ATE x-y-z", "Drift", "</html>"})
+		EXPECT_NE(html.find(part), std::string::npos) << part;
+	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--html", folder_.file("ref.tum") + "/x.html"}).status,
+	          1);
 }
 
 TEST_F(EvaluateProgram, MissingEstimateIsARowWithoutFigures)
 {
-	const std::vector<std::string> arguments{"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "-e", folder_.file("none.tum"),
-	                                         "--json", folder_.file("e.json")};
+	const std::vector<std::string> arguments{"-r", folder_.file("ref.tum"),  "-e",     folder_.file("moved.tum"),
+	                                         "-e", folder_.file("none.tum"), "--json", folder_.file("e.json")};
 	EXPECT_EQ(run(arguments).status, 1) << "without the flag it is an error";
 	std::vector<std::string> allowed = arguments;
 	allowed.push_back("--allow-missing");

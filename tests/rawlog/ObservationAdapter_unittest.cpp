@@ -78,8 +78,9 @@ TEST(ObservationAdapter, ImuReadsMrptsSlotsByMeaning)
 TEST(ObservationAdapter, ImuSamplesBeyondAnySensorsRangeAreRejected)
 {
 	ObservationAdapter adapter;
-	const auto imuAt = [](int ms, double acc_m_s2, double rate_rad_s)
-	{ return makeImu({kStart_ns + ms * kMillisecond_ns, {acc_m_s2, 0, 0}, {0, rate_rad_s, 0}}, Pose3()); };
+	const auto imuAt = [](int ms, double acc_m_s2, double rate_rad_s) {
+		return makeImu({kStart_ns + ms * kMillisecond_ns, {acc_m_s2, 0, 0}, {0, rate_rad_s, 0}}, Pose3());
+	};
 	EXPECT_FALSE(give(adapter, imuAt(0, 199, -34)).rejected);
 	EXPECT_EQ(give(adapter, imuAt(5, -1e30, 0)).rejected, Rejection::out_of_range);
 	EXPECT_EQ(give(adapter, imuAt(10, 9.81, 36)).rejected, Rejection::out_of_range);

@@ -97,7 +97,8 @@ TEST_F(RealRawlogs, EverySourceOfARealOdometryGivesItsPath)
 		const char* name;
 		double length_m, yaw_rad, yaw_tolerance_rad;
 	};
-	// The ticks turn more than the pose: here both wheels have one radius, in the pose's calibration two. The velocities are the driver's own estimate.
+	// The ticks turn more than the pose: here both wheels have one radius, in the pose's calibration two. The velocities are the driver's
+	// own estimate.
 	const double tick_yaw_rad = (4126556 - 3995531) * 1.2910e-4 / 1.250;
 	for (const auto& expected : {Expected{Source::pose, "pose", 524.2, 6.06, 0.02},
 	                             {Source::ticks_increment, "ticks_increment", 524.2, tick_yaw_rad, 0.02},

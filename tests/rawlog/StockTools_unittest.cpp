@@ -16,7 +16,8 @@ class StockTools : public RawlogTest
    protected:
 	void SetUp() override
 	{
-		if (runProgram("sh", {"-c", "command -v rawlog-edit"}).status != 0) GTEST_SKIP() << "no rawlog-edit here (Debian package mrpt-apps)";
+		if (runProgram("sh", {"-c", "command -v rawlog-edit"}).status != 0)
+			GTEST_SKIP() << "no rawlog-edit here (Debian package mrpt-apps)";
 		writeSecond(path);
 	}
 

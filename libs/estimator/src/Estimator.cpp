@@ -16,7 +16,8 @@ namespace viwo
 {
 namespace
 {
-/** Of the covariance of the wheels while the robot stands: they have no noise then, and what they say of the heading must outlast minutes. */
+/** Of the covariance of the wheels while the robot stands: they have no noise then, and what they say of the heading must outlast minutes.
+ */
 constexpr double kStandstillTrust = 1e-5;
 
 /** Before the start only the rotation is known, from the gyro: enough to tell keyframes. */
@@ -150,7 +151,8 @@ void Estimator::Impl::report(FrameEstimate& out)
 	Eigen::Matrix<double, 15, 15> in_window;
 	if (latestCovariance(window, in_window))
 	{
-		out.covariance = gauge.covarianceOf(out.T_WO, vehicleCovariance(out.state.T_WB, calibration.T_BO(), in_window.topLeftCorner<6, 6>()));
+		out.covariance =
+		    gauge.covarianceOf(out.T_WO, vehicleCovariance(out.state.T_WB, calibration.T_BO(), in_window.topLeftCorner<6, 6>()));
 		velocity_sigma_m_s = std::sqrt(in_window.diagonal().segment<3>(StateOrder::v).maxCoeff());
 	}
 	else
@@ -172,12 +174,23 @@ void Estimator::Impl::forgetSamplesBefore(int64_t t_ns)
 	wheel_samples.dropBefore(reckoning && options.useWheels() ? std::min(interval_ns, reckoning->t_ns()) : interval_ns);
 }
 
-Estimator::Estimator(const EstimatorOptions& options, const Calibration& calibration) : impl_(std::make_unique<Impl>(options, calibration)) {}
+Estimator::Estimator(const EstimatorOptions& options, const Calibration& calibration) : impl_(std::make_unique<Impl>(options, calibration))
+{
+}
 Estimator::~Estimator() = default;
 
-bool Estimator::addImu(const ImuSample& sample) { return impl_->imu.add(sample); }
-bool Estimator::addWheels(const WheelSample& sample) { return impl_->wheel_samples.add(sample); }
-FrameEstimate Estimator::addFrame(const FeatureFrame& frame) { return impl_->processFrame(frame); }
+bool Estimator::addImu(const ImuSample& sample)
+{
+	return impl_->imu.add(sample);
+}
+bool Estimator::addWheels(const WheelSample& sample)
+{
+	return impl_->wheel_samples.add(sample);
+}
+FrameEstimate Estimator::addFrame(const FeatureFrame& frame)
+{
+	return impl_->processFrame(frame);
+}
 
 Eigen::Quaterniond Estimator::predictCameraRotation(int64_t t_prev_ns, int64_t t_cur_ns) const
 {
@@ -192,15 +205,22 @@ std::vector<NavState> Estimator::propagate(int64_t t_after_ns, int64_t t_until_n
 {
 	if (!impl_->last_state || !impl_->options.useImu()) return {};
 	const NavState& from = *impl_->last_state;
-	const auto span = impl_->imu.span(from.t_ns, std::min(t_until_ns, impl_->imu.latest_ns()), impl_->options.window.reinitialize_after_gap_s);
+	const auto span =
+	    impl_->imu.span(from.t_ns, std::min(t_until_ns, impl_->imu.latest_ns()), impl_->options.window.reinitialize_after_gap_s);
 	if (!span) return {};
 	std::vector<NavState> states = propagateOver(from, *span, impl_->options.noise.gravity_m_s2);
 	states.erase(states.begin(), std::find_if(states.begin(), states.end(), [&](const NavState& s) { return s.t_ns > t_after_ns; }));
 	return states;
 }
 
-Status Estimator::status() const { return impl_->status.now(); }
-const std::vector<StatusChange>& Estimator::statusChanges() const { return impl_->status.changes(); }
+Status Estimator::status() const
+{
+	return impl_->status.now();
+}
+const std::vector<StatusChange>& Estimator::statusChanges() const
+{
+	return impl_->status.changes();
+}
 
 const EstimatorCounters& Estimator::counters() const
 {
@@ -219,7 +239,8 @@ std::vector<LandmarkPoint> Estimator::landmarks() const
 	{
 		if (!landmark.in_use) continue;
 		const Pose3 T_WC = poseFromBlock(landmark.anchor().pose.data()) * T_BC;
-		points.push_back({id, T_WC * Eigen::Vector3d(landmark.sightings.front().bearing_C / landmark.inverse_depth_1_m), landmark.deviation});
+		points.push_back(
+		    {id, T_WC * Eigen::Vector3d(landmark.sightings.front().bearing_C / landmark.inverse_depth_1_m), landmark.deviation});
 	}
 	return points;
 }
@@ -230,5 +251,8 @@ CalibrationEstimate Estimator::calibration() const
 	return {w.T_BC_pose(), w.wheelIntrinsics(), w.plane()[0], w.plane()[1], w.plane()[2]};
 }
 
-void Estimator::setStageHook(StageHook hook) { impl_->hook = std::move(hook); }
+void Estimator::setStageHook(StageHook hook)
+{
+	impl_->hook = std::move(hook);
+}
 }  // namespace viwo

@@ -15,7 +15,8 @@
 
 namespace viwo
 {
-/** The estimator's state, and the steps that a frame takes: Estimator.cpp with a window, EstimatorStart.cpp towards one, EstimatorReckoning.cpp without. */
+/** The estimator's state, and the steps that a frame takes: Estimator.cpp with a window, EstimatorStart.cpp towards one,
+ * EstimatorReckoning.cpp without. */
 struct Estimator::Impl
 {
 	EstimatorOptions options;
@@ -36,16 +37,21 @@ struct Estimator::Impl
 	std::optional<int64_t> last_asked_ns;  //!< latest frame of all
 	std::optional<int64_t> last_frame_ns;  //!< latest one in the window; intervals begin there
 	std::optional<int64_t> last_vision_try_ns;
-	std::optional<NavState> last_state;	 //!< of the last frame that the window gave
-	double velocity_sigma_m_s = 0;	//!< of that state, along its worst axis
-	std::optional<WheelOdometry> reckoning;	 //!< from the last known pose on; nothing before the first
+	std::optional<NavState> last_state;      //!< of the last frame that the window gave
+	double velocity_sigma_m_s = 0;           //!< of that state, along its worst axis
+	std::optional<WheelOdometry> reckoning;  //!< from the last known pose on; nothing before the first
 	WorldGauge gauge;
 	std::optional<Status> status_before_hole;  //!< set while the IMU does not reach the frames of a running window
 	std::string lost_cause;
 
 	Impl(const EstimatorOptions& o, const Calibration& c)
-		: options(o), calibration(c), window(o, c), intervals(o, c.wheels), slip_gate(o, c), status(o.window),
-		  fresh_track_sigma_rad(o.noise.start_pixel_sigma_px / std::max(1.0, c.camera.meanFocal_px()))
+	    : options(o),
+	      calibration(c),
+	      window(o, c),
+	      intervals(o, c.wheels),
+	      slip_gate(o, c),
+	      status(o.window),
+	      fresh_track_sigma_rad(o.noise.start_pixel_sigma_px / std::max(1.0, c.camera.meanFocal_px()))
 	{
 	}
 

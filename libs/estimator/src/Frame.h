@@ -23,14 +23,14 @@ struct Interval
 /** One frame of the window: its state as solver blocks, its tracks, and the interval that leads to it. */
 struct Frame
 {
-	int64_t id = 0;	 //!< counts frames; never used again
+	int64_t id = 0;  //!< counts frames; never used again
 	int64_t t_ns = 0;
-	std::array<double, 7> pose{};  //!< T_WB: p, quaternion x y z w
-	std::array<double, 9> motion{};	 //!< v_WB, b_a, b_g
+	std::array<double, 7> pose{};    //!< T_WB: p, quaternion x y z w
+	std::array<double, 9> motion{};  //!< v_WB, b_a, b_g
 	FeatureFrame features;
-	Interval interval;	//!< from the frame before it in the window
+	Interval interval;  //!< from the frame before it in the window
 	bool keyframe = false;
-	bool timed = false;	 //!< kept only so that no interval grows too long
+	bool timed = false;  //!< kept only so that no interval grows too long
 	bool standing = false;
 
 	// Whitening costs a factorisation, so a factor lives as long as its measurement; reset where that changes.

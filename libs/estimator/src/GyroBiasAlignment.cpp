@@ -83,8 +83,7 @@ Rows weightedRows(const Inputs& in)
 		rows.covariance.block<3, 1>(3 * k, w) = in.phiCovariance(k) * z.transpose();
 		intrinsics.row(w) = wheel.intrinsicsJacobian().row(5);
 	}
-	if (m > 0)
-		rows.covariance += intrinsics * in.belief.wheels_covariance * intrinsics.transpose();
+	if (m > 0) rows.covariance += intrinsics * in.belief.wheels_covariance * intrinsics.transpose();
 	return rows;
 }
 

@@ -93,8 +93,8 @@ void ImuPreintegration::propagateErrors(double dt_s, const Matrix9& F, const Bia
 	covariance_.bottomLeftCorner<6, 9>() = cross.transpose();
 	covariance_.bottomRightCorner<6, 6>().diagonal() += walk;
 
-	// White noise integrated twice has more in it than its mean over the step tells: sigma^2 h^3 (1/3 - 1/4), apart from the velocity's. It keeps
-	// the covariance of an interval of a single step invertible.
+	// White noise integrated twice has more in it than its mean over the step tells: sigma^2 h^3 (1/3 - 1/4), apart from the velocity's. It
+	// keeps the covariance of an interval of a single step invertible.
 	covariance_.diagonal().segment<3>(kP).array() += square(noise_.acc_noise_m_s2_sqrtHz) * dt_s * dt_s * dt_s / 12;
 
 	bias_jacobian_ = F * bias_jacobian_ + M;

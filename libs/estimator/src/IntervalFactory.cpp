@@ -11,7 +11,7 @@ namespace
 // Beyond these the neglected second order of the correction is no longer small against the noise of a three-second interval.
 constexpr double kGyroBiasMove_rad_s = 2e-3;
 constexpr double kAccBiasMove_m_s2 = 0.05;
-constexpr double kWheelMove = 2e-3;	 // relative
+constexpr double kWheelMove = 2e-3;  // relative
 
 void countOnce(bool is_gap, bool& in_gap, int& gaps)
 {
@@ -56,7 +56,8 @@ void IntervalFactory::relinearize(Window& window)
 		relinearizeAt(window, state.b_a, state.b_g);
 
 	const WheelIntrinsics k = window.wheelIntrinsics();
-	const double moved = std::abs(k.k_left - wheels_.k_left) + std::abs(k.k_right - wheels_.k_right) + std::abs(k.track_m / wheels_.track_m - 1);
+	const double moved =
+	    std::abs(k.k_left - wheels_.k_left) + std::abs(k.k_right - wheels_.k_right) + std::abs(k.track_m / wheels_.track_m - 1);
 	if (moved <= kWheelMove) return;
 	wheels_ = k;
 	for (auto& frame : window.frames)

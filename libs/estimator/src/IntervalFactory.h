@@ -10,17 +10,16 @@ namespace viwo
 struct Belief;
 struct Window;
 
-/** Cuts the sample streams at frame times and preintegrates them. All intervals share one linearisation point (biases, wheel intrinsics), so that
- *  any two neighbours can be composed; when the estimate has moved away from it, all of them are integrated anew.
+/** Cuts the sample streams at frame times and preintegrates them. All intervals share one linearisation point (biases, wheel intrinsics),
+ * so that any two neighbours can be composed; when the estimate has moved away from it, all of them are integrated anew.
  */
 class IntervalFactory
 {
    public:
 	IntervalFactory(const EstimatorOptions& options, const WheelIntrinsics& nominal);
 
-	/** The motion between two frames. `imu` is null where the stream has a hole longer than reinitialize_after_gap_s, `wheels` where it has one
-	 *  longer than max_wheel_gap_s; shorter ones are
-	 *  bridged. Each hole is counted once, however many intervals it spoils.
+	/** The motion between two frames. `imu` is null where the stream has a hole longer than reinitialize_after_gap_s, `wheels` where it has
+	 * one longer than max_wheel_gap_s; shorter ones are bridged. Each hole is counted once, however many intervals it spoils.
 	 */
 	Interval between(const ImuBuffer& imu, const WheelBuffer& wheels, int64_t t_begin_ns, int64_t t_end_ns);
 

@@ -11,7 +11,10 @@ namespace viwo
 {
 namespace
 {
-Pose3 cameraPose(const Frame& frame, const Pose3& T_BC) { return poseFromBlock(frame.pose.data()) * T_BC; }
+Pose3 cameraPose(const Frame& frame, const Pose3& T_BC)
+{
+	return poseFromBlock(frame.pose.data()) * T_BC;
+}
 
 /** Error of a sighting on the tangent plane of its bearing, and its derivative by the inverse depth. */
 struct DepthLinearization
@@ -56,7 +59,8 @@ void LandmarkMap::forget(const Frame& frame, const Pose3& T_BC)
 		auto& sightings = landmark.sightings;
 		const bool was_anchor = sightings.front().frame == &frame;
 		const Eigen::Vector3d bearing = sightings.front().bearing_C;
-		sightings.erase(std::remove_if(sightings.begin(), sightings.end(), [&](const Sighting& s) { return s.frame == &frame; }), sightings.end());
+		sightings.erase(std::remove_if(sightings.begin(), sightings.end(), [&](const Sighting& s) { return s.frame == &frame; }),
+		                sightings.end());
 		if (sightings.empty())
 		{
 			it = landmarks_.erase(it);

@@ -27,8 +27,8 @@ struct Landmark
 	uint64_t id = 0;
 	std::vector<Sighting> sightings;
 	double inverse_depth_1_m = 0;  //!< inverse distance along the anchor's bearing; a solver block
-	double deviation = 1e9;	 //!< of the inverse depth, relative, given the poses
-	bool in_use = false;  //!< has a depth and takes part in the problem
+	double deviation = 1e9;        //!< of the inverse depth, relative, given the poses
+	bool in_use = false;           //!< has a depth and takes part in the problem
 	std::shared_ptr<LocalCost> prior_factor;
 
 	Frame& anchor() const { return *sightings.front().frame; }
@@ -42,7 +42,7 @@ class LandmarkMap
 	{
 		double sigma_rad = 1;  //!< noise of a bearing
 		double prior_mean_1_m = 0.25, prior_sigma_1_m = 5;
-		double outlier_rad = 1;	 //!< mean error that throws a landmark out
+		double outlier_rad = 1;  //!< mean error that throws a landmark out
 		double known_deviation = 0.3;
 	};
 

@@ -42,7 +42,8 @@ struct NormalEquations
 		}
 	}
 
-	/** All landmarks in one product. Any positive h will do, however small: what is subtracted is bounded by what the same observations added. */
+	/** All landmarks in one product. Any positive h will do, however small: what is subtracted is bounded by what the same observations
+	 * added. */
 	void eliminateLandmarks()
 	{
 		if (landmark_h.size() == 0) return;  // Eigen divides by the number of columns

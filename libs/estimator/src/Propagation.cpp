@@ -65,7 +65,8 @@ Eigen::Quaterniond turnOver(const std::vector<ImuSample>& samples, const Eigen::
 
 bool plausible(const NavState& s)
 {
-	const bool finite = s.T_WB.p.allFinite() && s.T_WB.R.coeffs().allFinite() && s.v_WB.allFinite() && s.b_a.allFinite() && s.b_g.allFinite();
+	const bool finite =
+	    s.T_WB.p.allFinite() && s.T_WB.R.coeffs().allFinite() && s.v_WB.allFinite() && s.b_a.allFinite() && s.b_g.allFinite();
 	return finite && s.v_WB.norm() < kMaxSpeed_m_s && s.b_a.norm() < kMaxAccBias_m_s2 && s.b_g.norm() < kMaxGyroBias_rad_s;
 }
 }  // namespace viwo

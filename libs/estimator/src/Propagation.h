@@ -9,8 +9,8 @@ namespace viwo
 {
 class ImuPreintegration;
 
-/** Strapdown integration over samples that begin at the state's time: one state per sample after the first, rates and forces held at their mean between
- *  two of them.
+/** Strapdown integration over samples that begin at the state's time: one state per sample after the first, rates and forces held at their
+ * mean between two of them.
  */
 std::vector<NavState> propagateOver(NavState state, const std::vector<ImuSample>& samples, double gravity_m_s2);
 

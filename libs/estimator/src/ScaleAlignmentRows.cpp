@@ -7,8 +7,7 @@
 namespace viwo
 {
 ScaleAlignmentRows::ScaleAlignmentRows(const std::vector<Pose3>& T_c0_ck, const std::vector<ImuPreintegration>& imu,
-                                       const std::vector<WheelPreintegration>& wheels, const Calibration& calibration,
-                                       const Belief& belief)
+                                       const std::vector<WheelPreintegration>& wheels, const Calibration& calibration, const Belief& belief)
     : T_c0_ck_(T_c0_ck),
       imu_(imu),
       wheels_(wheels),

@@ -16,8 +16,8 @@ class StatusLog
 	void set(Status to, int64_t t_ns, const std::string& cause);
 
 	/** After a frame was solved.
-	 *  @param known landmarks of known depth that it sees. @param seen landmarks that it sees at all: turning on the spot shows plenty of them, none with
-	 *  a depth, and is no loss of the camera.
+	 *  @param known landmarks of known depth that it sees. @param seen landmarks that it sees at all: turning on the spot shows plenty of
+	 * them, none with a depth, and is no loss of the camera.
 	 */
 	void update(int64_t t_ns, int known, int seen);
 

@@ -28,7 +28,8 @@ constexpr double kQuietGyro_rad_s = 0.012;
 constexpr double kQuietGyroPeak_rad_s = 0.06;
 constexpr size_t kEnoughTracks = 8;
 constexpr double kQuietTrackSigmas = 1.5;
-/** A robot that is pushed slowly moves its tracks by no more than their noise from frame to frame: only after this time it is said to stand, */
+/** A robot that is pushed slowly moves its tracks by no more than their noise from frame to frame: only after this time it is said to
+ * stand, */
 constexpr double kSettling_s = 0.5;
 /** and after this time its standing is looked at afresh, as tracks drift by themselves. */
 constexpr double kStandstillMemory_s = 3;
@@ -90,14 +91,15 @@ bool SlipGate::contradict(size_t first) const
 	const PriorOptions& p = options_.priors;
 	const double velocity_sigma_m_s = std::max(kVelocitySigma_m_s, steps_[first].velocity_sigma_m_s);
 	yaw_variance += square(kGyroBiasSigma_rad_s * duration_s) + 2 * square(p.wheel_scale * distance_m / calibration_.wheels.track_m) +
-					square(p.track_relative * turned_rad);
+	                square(p.track_relative * turned_rad);
 	travel_variance += square(velocity_sigma_m_s * duration_s) + square(0.5 * kAccelerationSigma_m_s2 * duration_s * duration_s) +
-					   square(p.wheel_scale * distance_m);
+	                   square(p.wheel_scale * distance_m);
 	const double gate = square(options_.window.slip_gate_sigma);
 	return square(yaw_rad) > gate * yaw_variance || square(travel_m) > gate * travel_variance;
 }
 
-std::optional<double> SlipGate::judge(const NavState& before, double velocity_sigma_m_s, const Interval& interval, const WheelIntrinsics& intrinsics)
+std::optional<double> SlipGate::judge(const NavState& before, double velocity_sigma_m_s, const Interval& interval,
+                                      const WheelIntrinsics& intrinsics)
 {
 	if (!options_.factors.slip_gate || !interval.wheels || !interval.imu)
 	{
@@ -106,7 +108,7 @@ std::optional<double> SlipGate::judge(const NavState& before, double velocity_si
 	}
 	const WheelPreintegration& wheels = *interval.wheels;
 	steps_.push_back({before, velocity_sigma_m_s, std::make_shared<const ImuPreintegration>(*interval.imu), wheels.corrected(intrinsics),
-		wheels.covariance()(5, 5), wheels.covariance()(0, 0), wheels.distance_m()});
+	                  wheels.covariance()(5, 5), wheels.covariance()(0, 0), wheels.distance_m()});
 	// Half an interval of grace: a sum of frame times is not to the nanosecond what was asked for.
 	while (steps_.size() > 1 && duration_s(0) - 0.5 * steps_.front().imu->dt_s() > options_.window.slip_gate_window_s) steps_.pop_front();
 	since_slip_s_ += interval.imu->dt_s();
@@ -128,7 +130,8 @@ void distrustWheels(Window& window, double duration_s)
 	}
 }
 
-bool standsStill(const Interval& interval, const Eigen::Vector3d& b_g, const FeatureFrame& before, const FeatureFrame& after, double sigma_rad)
+bool standsStill(const Interval& interval, const Eigen::Vector3d& b_g, const FeatureFrame& before, const FeatureFrame& after,
+                 double sigma_rad)
 {
 	if (!interval.wheels || !interval.imu) return false;
 	for (const WheelSegment& s : interval.wheels->segments())
@@ -141,8 +144,8 @@ bool standsStill(const Interval& interval, const Eigen::Vector3d& b_g, const Fea
 	return !moved_rad || *moved_rad < kQuietTrackSigmas * sigma_rad;
 }
 
-bool StandstillGate::judge(
-	const Interval& interval, const Eigen::Vector3d& b_g, const FeatureFrame& before, const FeatureFrame& after, double sigma_rad)
+bool StandstillGate::judge(const Interval& interval, const Eigen::Vector3d& b_g, const FeatureFrame& before, const FeatureFrame& after,
+                           double sigma_rad)
 {
 	if (!standsStill(interval, b_g, before, after, sigma_rad))
 	{

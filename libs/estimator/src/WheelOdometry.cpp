@@ -19,7 +19,7 @@ constexpr double kUnknownTurn_rad_s = 0.2;
 }  // namespace
 
 WheelOdometry::WheelOdometry(const EstimatorOptions& options, const WheelIntrinsics& nominal)
-	: noise_(options.noise.wheels), max_gap_s_(options.window.max_wheel_gap_s), wheels_(nominal)
+    : noise_(options.noise.wheels), max_gap_s_(options.window.max_wheel_gap_s), wheels_(nominal)
 {
 	const PriorOptions& p = options.priors;
 	const Eigen::Vector3d sigma(p.wheel_scale, p.wheel_scale, p.track_relative * nominal.track_m);

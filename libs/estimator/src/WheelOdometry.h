@@ -12,9 +12,9 @@ namespace viwo
 {
 class WheelBuffer;
 
-/** Dead reckoning on the wheels from where O was last known: mode wheel, and in the other modes while there is no window. Its covariance goes on from that
- *  of the last known pose, by wheel noise, floors, and the uncertainty of scale and track; over what no wheel tells it grows by what a robot could have
- *  done meanwhile.
+/** Dead reckoning on the wheels from where O was last known: mode wheel, and in the other modes while there is no window. Its covariance
+ * goes on from that of the last known pose, by wheel noise, floors, and the uncertainty of scale and track; over what no wheel tells it
+ * grows by what a robot could have done meanwhile.
  */
 class WheelOdometry
 {
@@ -31,8 +31,8 @@ class WheelOdometry
 
 	void add(const WheelPreintegration& interval);
 
-	/** Carries O on to t_ns as far as the wheels tell: over a hole in their stream that is closed again, by passUnknown(); at one that is still open it
-	 *  waits at its start. @return whether all of the way was told.
+	/** Carries O on to t_ns as far as the wheels tell: over a hole in their stream that is closed again, by passUnknown(); at one that is
+	 * still open it waits at its start. @return whether all of the way was told.
 	 */
 	bool advance(const WheelBuffer& wheels, int64_t t_ns);
 	/** Stays where it is until t_ns, and knows that much less of it. */

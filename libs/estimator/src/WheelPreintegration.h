@@ -15,7 +15,7 @@ struct WheelSegment
 	double dt_s = 0;
 	double v_left_m_s = 0;
 	double v_right_m_s = 0;
-	double variance_scale = 1;	//!< on all noise of this stretch: above 1 where the wheels slip
+	double variance_scale = 1;  //!< on all noise of this stretch: above 1 where the wheels slip
 };
 
 /** Motion of O between two times as the wheels give it (Niu et al. Eq. 2-8), in O's axes at the start; the lever arm is left to the

@@ -29,11 +29,15 @@ struct Totals
 {
 	double dt_s = 0;
 	Eigen::Vector3d gyro_B = Eigen::Vector3d::Zero();  //!< mean rate, rad/s
-	Eigen::Vector3d acc_O = Eigen::Vector3d::Zero();  //!< mean specific force less the acceleration that the wheels tell, m/s^2, in O's axes
+	Eigen::Vector3d acc_O =
+	    Eigen::Vector3d::Zero();  //!< mean specific force less the acceleration that the wheels tell, m/s^2, in O's axes
 	double yaw_rad = 0, distance_m = 0, wheel_yaw_variance = 0;
 };
 
-double speedAt(const WheelSegment& s, const WheelIntrinsics& k) { return twistOf({0, s.v_left_m_s, s.v_right_m_s}, k).v_m_s; }
+double speedAt(const WheelSegment& s, const WheelIntrinsics& k)
+{
+	return twistOf({0, s.v_left_m_s, s.v_right_m_s}, k).v_m_s;
+}
 
 Totals sumUp(const Window& w)
 {
@@ -89,7 +93,8 @@ Eigen::Vector3d gyroBiasOf(const Window& w, const Totals& t)
 	return w.belief.b_g + w.calibration.T_OB.R.conjugate() * weight.cwiseProduct(measured_O);
 }
 
-/** Where wheel factors follow, they say what the wheels know. Without them this prior is all that carries the wheels' scale into the window. */
+/** Where wheel factors follow, they say what the wheels know. Without them this prior is all that carries the wheels' scale into the
+ * window. */
 double velocitySigma_m_s(const Window& w)
 {
 	if (w.options.useWheelFactor()) return w.options.priors.velocity_m_s;
@@ -110,7 +115,8 @@ bool startFromWheels(Window& w, IntervalFactory& intervals, const Pose3& T_WO_la
 
 	const WheelIntrinsics k = w.wheelIntrinsics();
 	const double yaw_rad = yawOf(T_WO_latest.R);
-	Pose3 T_WO(Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())) * tiltOf(totals, w.options, w.belief), T_WO_latest.p);
+	Pose3 T_WO(Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())) * tiltOf(totals, w.options, w.belief),
+	           T_WO_latest.p);
 	// The tilt turns the heading by second order only; taking it out keeps yaw exactly as asked.
 	T_WO.R = Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad - yawOf(T_WO.R), Eigen::Vector3d::UnitZ())) * T_WO.R;
 	for (size_t i = w.frames.size(); i-- > 0;)
@@ -133,7 +139,7 @@ void addStartPriors(Window& w, Frame& gauge, double velocity_sigma_m_s)
 	const EstimatorOptions& o = w.options;
 	const Belief& belief = w.belief;
 	const auto add = [&](const std::shared_ptr<LocalCost>& cost, double* block) { w.start_priors.push_back({cost, nullptr, {block}}); };
-	gauge.keyframe = true;	// as long as it carries the gauge it must not be dropped
+	gauge.keyframe = true;  // as long as it carries the gauge it must not be dropped
 	const Pose3 T_WB = poseFromBlock(gauge.pose.data());
 	add(std::make_shared<GaugePrior>(T_WB, w.calibration.T_BO().p, kGaugePosition_m, kGaugeYaw_rad), gauge.pose.data());
 
@@ -146,7 +152,8 @@ void addStartPriors(Window& w, Frame& gauge, double velocity_sigma_m_s)
 	add(StatePrior::fromCovariance(BlockShape::euclidean(9), motion.data(), motion_covariance), oldest.motion.data());
 
 	if (o.useCamera()) add(StatePrior::fromCovariance(BlockShape::pose(), w.T_BC.data(), belief.T_BC_covariance), w.T_BC.data());
-	if (o.useWheelFactor()) add(StatePrior::fromCovariance(BlockShape::euclidean(3), w.wheels.data(), belief.wheels_covariance), w.wheels.data());
+	if (o.useWheelFactor())
+		add(StatePrior::fromCovariance(BlockShape::euclidean(3), w.wheels.data(), belief.wheels_covariance), w.wheels.data());
 
 	if (!o.usePlaneFactor() || o.factors.plane_pairwise) return;
 	const double tilt_sigma = o.priors.plane_tilt_deg * kDegree;

@@ -80,7 +80,8 @@ void addFloor(Window& w, std::vector<Factor>& factors)
 		if (!w.options.usePlaneFactor() || frame->standing || (pairwise && frame == w.frames.front())) continue;
 		if (!frame->plane_factor && pairwise)
 			frame->plane_factor = std::make_shared<PairPlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
-		if (!frame->plane_factor) frame->plane_factor = std::make_shared<PlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
+		if (!frame->plane_factor)
+			frame->plane_factor = std::make_shared<PlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
 		double* const reference = pairwise ? w.frames.front()->pose.data() : w.plane().data();
 		if (pairwise)
 			factors.push_back({frame->plane_factor, loss, {reference, frame->pose.data()}});
@@ -98,13 +99,15 @@ void addLandmarks(Window& w, std::vector<Factor>& factors)
 	{
 		if (!landmark.in_use) continue;
 		if (!landmark.prior_factor)
-			landmark.prior_factor = std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, settings.prior_sigma_1_m));
+			landmark.prior_factor =
+			    std::make_shared<StatePrior>(scalar, &settings.prior_mean_1_m, Eigen::VectorXd::Constant(1, settings.prior_sigma_1_m));
 		factors.push_back({landmark.prior_factor, nullptr, {&landmark.inverse_depth_1_m}});
 		double* const anchor = landmark.anchor().pose.data();
 		for (size_t i = 1; i < landmark.sightings.size(); ++i)
 		{
 			Sighting& s = landmark.sightings[i];
-			if (!s.factor) s.factor = std::make_shared<ReprojectionResidual>(landmark.sightings.front().bearing_C, s.bearing_C, settings.sigma_rad);
+			if (!s.factor)
+				s.factor = std::make_shared<ReprojectionResidual>(landmark.sightings.front().bearing_C, s.bearing_C, settings.sigma_rad);
 			if (!s.factor->valid(anchor, s.frame->pose.data(), w.T_BC.data(), &landmark.inverse_depth_1_m)) continue;
 			factors.push_back({s.factor, loss, {anchor, s.frame->pose.data(), w.T_BC.data(), &landmark.inverse_depth_1_m}});
 		}
@@ -143,9 +146,15 @@ void Window::clear(const Belief& before)
 	prior_blocks.clear();
 }
 
-Pose3 Window::T_BC_pose() const { return poseFromBlock(T_BC.data()); }
+Pose3 Window::T_BC_pose() const
+{
+	return poseFromBlock(T_BC.data());
+}
 
-WheelIntrinsics Window::wheelIntrinsics() const { return {wheels[0], wheels[1], wheels[2]}; }
+WheelIntrinsics Window::wheelIntrinsics() const
+{
+	return {wheels[0], wheels[1], wheels[2]};
+}
 
 std::vector<Factor> collectFactors(Window& window)
 {

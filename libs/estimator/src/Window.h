@@ -17,7 +17,8 @@ namespace viwo
 {
 class LinearPrior;
 
-/** All states of the sliding window (paper Eq. 14) and what is known of them beside the measurements. Plain data: the algorithms stand beside it. */
+/** All states of the sliding window (paper Eq. 14) and what is known of them beside the measurements. Plain data: the algorithms stand
+ * beside it. */
 struct Window
 {
 	Window(const EstimatorOptions& options, const Calibration& calibration);
@@ -27,20 +28,20 @@ struct Window
 
 	EstimatorOptions options;
 	Calibration calibration;
-	Belief belief;	//!< from before the first frame
+	Belief belief;  //!< from before the first frame
 
-	std::deque<std::unique_ptr<Frame>> frames;	//!< oldest first; addresses of the states are stable
+	std::deque<std::unique_ptr<Frame>> frames;  //!< oldest first; addresses of the states are stable
 	LandmarkMap landmarks;
 
 	std::array<double, 7> T_BC{};
-	std::array<double, 3> wheels{};	 //!< k_left, k_right, track_m
+	std::array<double, 3> wheels{};  //!< k_left, k_right, track_m
 	std::array<double, 3>& plane() { return planes[static_cast<size_t>(current_plane)]; }
 	const std::array<double, 3>& plane() const { return planes[static_cast<size_t>(current_plane)]; }
-	std::array<std::array<double, 3>, 2> planes{};	//!< the floor now, and room for the next one (its random walk)
+	std::array<std::array<double, 3>, 2> planes{};  //!< the floor now, and room for the next one (its random walk)
 	int current_plane = 0;
 
-	std::vector<Factor> start_priors;  //!< of the initial states, until marginalisation takes them in
-	std::shared_ptr<LinearPrior> prior;	 //!< what marginalisation has left; null before the first
+	std::vector<Factor> start_priors;    //!< of the initial states, until marginalisation takes them in
+	std::shared_ptr<LinearPrior> prior;  //!< what marginalisation has left; null before the first
 	std::vector<double*> prior_blocks;
 
 	Frame& latest() { return *frames.back(); }
@@ -49,8 +50,8 @@ struct Window
 	WheelIntrinsics wheelIntrinsics() const;
 };
 
-/** Every factor of the window in a fixed order, with first-estimate Jacobians on the states that the prior holds. Whether a landmark's sighting is
- *  defined at the present states is looked at here.
+/** Every factor of the window in a fixed order, with first-estimate Jacobians on the states that the prior holds. Whether a landmark's
+ * sighting is defined at the present states is looked at here.
  */
 std::vector<Factor> collectFactors(Window& window);
 }  // namespace viwo

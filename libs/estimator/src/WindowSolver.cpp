@@ -19,7 +19,10 @@ namespace viwo
 {
 namespace
 {
-bool isLandmark(const BlockShape& shape) { return shape.ambient == 1; }
+bool isLandmark(const BlockShape& shape)
+{
+	return shape.ambient == 1;
+}
 
 /** Ceres orders the blocks of a group by their addresses: copies in one array, in the order of the factors, make that order repeatable. */
 class StateCopies
@@ -53,7 +56,7 @@ class StateCopies
 	}
 
    private:
-	std::unordered_map<const double*, size_t> offsets_;	 // looked up only, never walked through
+	std::unordered_map<const double*, size_t> offsets_;  // looked up only, never walked through
 	std::vector<State> states_;
 	std::vector<double> values_;
 };

@@ -25,11 +25,12 @@ constexpr double kSameFloor_m = 1e-3;
 
 bool touches(const Factor& factor, const std::vector<double*>& blocks)
 {
-	return std::any_of(
-		factor.blocks.begin(), factor.blocks.end(), [&](double* b) { return std::find(blocks.begin(), blocks.end(), b) != blocks.end(); });
+	return std::any_of(factor.blocks.begin(), factor.blocks.end(),
+	                   [&](double* b) { return std::find(blocks.begin(), blocks.end(), b) != blocks.end(); });
 }
 
-/** The floor drifts with the distance driven: from here on the window's factors are on a new plane state, tied to the old one by the drift. */
+/** The floor drifts with the distance driven: from here on the window's factors are on a new plane state, tied to the old one by the drift.
+ */
 void walkPlane(Window& w, double distance_m, std::vector<double*>& eliminated)
 {
 	if (!w.options.usePlaneFactor() || w.options.factors.plane_pairwise || distance_m < kSameFloor_m) return;
@@ -118,8 +119,8 @@ void marginalizeBlocks(Window& w, const std::vector<double*>& blocks)
 	if (!any) return;
 	for (double* block : blocks) marginalizer.eliminate(block);
 	const MarginalizationResult result = marginalizer.run();
-	w.start_priors.erase(
-		std::remove_if(w.start_priors.begin(), w.start_priors.end(), [&](const Factor& f) { return touches(f, blocks); }), w.start_priors.end());
+	w.start_priors.erase(std::remove_if(w.start_priors.begin(), w.start_priors.end(), [&](const Factor& f) { return touches(f, blocks); }),
+	                     w.start_priors.end());
 	w.prior = result.usable() ? result.makeCost() : nullptr;
 	w.prior_blocks = result.usable() ? result.blocks : std::vector<double*>();
 }

@@ -7,10 +7,10 @@ namespace viwo
 /** What became of the second-latest frame once its successor was there (paper Sec. 6.3, Fig. 3). */
 enum class Fate
 {
-	kept_growing,  //!< keyframe, and there was room
+	kept_growing,              //!< keyframe, and there was room
 	kept_oldest_marginalized,  //!< keyframe: the oldest left with all its measurements
-	merged,	 //!< no keyframe: its images and plane were dropped, its IMU and wheels joined to the next interval
-	kept_timed	//!< the robot stands: kept so that no interval grows too long; the one kept before it was marginalised
+	merged,                    //!< no keyframe: its images and plane were dropped, its IMU and wheels joined to the next interval
+	kept_timed                 //!< the robot stands: kept so that no interval grows too long; the one kept before it was marginalised
 };
 
 /** Makes room for the next frame. Called after the window was solved. */

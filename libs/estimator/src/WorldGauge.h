@@ -6,8 +6,8 @@
 
 namespace viwo
 {
-/** Position and heading of a window's start in W. A window knows its states against its start only, which it holds fixed; how far the start itself is
- *  from where it is said to be comes on top here, and turns everything since about the start.
+/** Position and heading of a window's start in W. A window knows its states against its start only, which it holds fixed; how far the start
+ * itself is from where it is said to be comes on top here, and turns everything since about the start.
  */
 class WorldGauge
 {
@@ -22,7 +22,7 @@ class WorldGauge
 
    private:
 	Eigen::Vector3d p_WO_start_ = Eigen::Vector3d::Zero();
-	Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();	//!< of position and of yaw about W's z
+	Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();  //!< of position and of yaw about W's z
 };
 
 /** Covariance of T_WO = T_WB T_BO from that of T_WB; position in W's axes, rotations perturbed on the right. */

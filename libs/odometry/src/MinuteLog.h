@@ -11,7 +11,7 @@ class MinuteLog
    public:
 	struct Minute
 	{
-		size_t number = 0;	//!< since the first frame, from 0
+		size_t number = 0;  //!< since the first frame, from 0
 		size_t frames = 0;
 		double rss_mb = 0;
 	};

@@ -13,8 +13,8 @@
 
 namespace viwo
 {
-/** Brings the streams together: images wait until IMU and wheels reach up to them, then the front-end and the estimator run. What happens depends
- *  on the order and the stamps of the observations alone, never on how fast they come.
+/** Brings the streams together: images wait until IMU and wheels reach up to them, then the front-end and the estimator run. What happens
+ * depends on the order and the stamps of the observations alone, never on how fast they come.
  */
 struct Odometry::Impl
 {
@@ -71,7 +71,8 @@ struct Odometry::Impl
 	void stage(const std::string& name, bool begin);
 };
 
-/** Stages end in destructors, the estimator's too: there nothing may be thrown, and a time that is lost matters less than the error on its way. */
+/** Stages end in destructors, the estimator's too: there nothing may be thrown, and a time that is lost matters less than the error on its
+ * way. */
 void Odometry::Impl::stage(const std::string& name, bool begin)
 {
 	if (begin)
@@ -93,7 +94,8 @@ void Odometry::Impl::stage(const std::string& name, bool begin)
 bool Odometry::Impl::uses(const std::string& label) const
 {
 	const AdapterOptions& labels = adapter.options();
-	return label == labels.cam_label || (est().useImu() && label == labels.imu_label) || (est().useWheels() && label == labels.odometry_label);
+	return label == labels.cam_label || (est().useImu() && label == labels.imu_label) ||
+	       (est().useWheels() && label == labels.odometry_label);
 }
 
 void Odometry::Impl::take(const ImuSample& s)
@@ -124,8 +126,8 @@ void Odometry::Impl::take(const ImageRef& image)
 	if (!first_image) first_image = image.observation();
 	if (est().useCamera() && (o.cameraPose != first_image->cameraPose || o.cameraParams != first_image->cameraParams))
 		throw Error("label " + o.sensorLabel + ": the image at " + formatSeconds(image.t_ns) + " s has another " +
-					(o.cameraPose != first_image->cameraPose ? "cameraPose" : "calibration") +
-					" than the first: two cameras under one label; give each its own and set cam_label to one");
+		            (o.cameraPose != first_image->cameraPose ? "cameraPose" : "calibration") +
+		            " than the first: two cameras under one label; give each its own and set cam_label to one");
 	images.push_back(image);
 	last_image_ns = image.t_ns;
 	stream.advance(image.t_ns);
@@ -139,7 +141,8 @@ bool Odometry::Impl::makeEstimator(bool at_end)
 	{
 		if ((est().useCamera() && !has_image) || (est().useImu() && early_imu.empty())) return false;
 		if (est().mode == Mode::wheel && !at_end && !has_imu && images.empty() && early_wheels.size() < 20) return false;
-		calibration = calibrationFrom(adapter.options(), est().useCamera() ? first_image.get() : nullptr, has_imu ? first_imu.get() : nullptr);
+		calibration =
+		    calibrationFrom(adapter.options(), est().useCamera() ? first_image.get() : nullptr, has_imu ? first_imu.get() : nullptr);
 	}
 	estimator = std::make_unique<Estimator>(est(), *calibration);
 	estimator->setStageHook([this](const char* name, bool begin) { stage(name, begin); });
@@ -235,9 +238,15 @@ void Odometry::Impl::logStatus()
 	}
 }
 
-Odometry::Odometry(const OdometryOptions& options) : COutputLogger("viwo::Odometry"), profiler(true, "viwo::Odometry"), impl_(std::make_unique<Impl>(*this, options)) {}
+Odometry::Odometry(const OdometryOptions& options)
+    : COutputLogger("viwo::Odometry"), profiler(true, "viwo::Odometry"), impl_(std::make_unique<Impl>(*this, options))
+{
+}
 
-Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration) : Odometry(options) { impl_->calibration = calibration; }
+Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration) : Odometry(options)
+{
+	impl_->calibration = calibration;
+}
 
 Odometry::~Odometry()
 {
@@ -281,18 +290,60 @@ void Odometry::finish()
 	if (impl_->estimator && impl_->last_frame_ns) impl_->emitImuRate(impl_->stream.now_ns());
 }
 
-void Odometry::stopWhen(std::function<bool()> asked) { impl_->stop_asked = std::move(asked); }
-const FrameEstimate& Odometry::latest() const { return impl_->latest; }
-const Trajectory& Odometry::trajectory() const { return impl_->trajectory; }
-std::vector<LandmarkPoint> Odometry::landmarks() const { return impl_->estimator ? impl_->estimator->landmarks() : std::vector<LandmarkPoint>(); }
-Status Odometry::status() const { return impl_->estimator ? impl_->estimator->status() : Status::waiting; }
-std::vector<StatusChange> Odometry::statusChanges() const { return impl_->estimator ? impl_->estimator->statusChanges() : std::vector<StatusChange>(); }
-EstimatorCounters Odometry::counters() const { return impl_->estimator ? impl_->estimator->counters() : EstimatorCounters(); }
-CalibrationEstimate Odometry::calibrationEstimate() const { return impl_->estimator ? impl_->estimator->calibration() : CalibrationEstimate(); }
-const Calibration* Odometry::calibration() const { return impl_->calibration ? &*impl_->calibration : nullptr; }
-const std::map<std::string, RejectionCounts>& Odometry::observationCounts() const { return impl_->adapter.counts(); }
-int64_t Odometry::firstFrame_ns() const { return impl_->first_frame_ns.value_or(0); }
-void Odometry::onFrame(std::function<void(const FrameEstimate&)> callback) { impl_->on_frame = std::move(callback); }
-void Odometry::onImuRate(std::function<void(const NavState&)> callback) { impl_->on_imu_rate = std::move(callback); }
-const StageTimes& Odometry::stageTimes() const { return impl_->times; }
+void Odometry::stopWhen(std::function<bool()> asked)
+{
+	impl_->stop_asked = std::move(asked);
+}
+const FrameEstimate& Odometry::latest() const
+{
+	return impl_->latest;
+}
+const Trajectory& Odometry::trajectory() const
+{
+	return impl_->trajectory;
+}
+std::vector<LandmarkPoint> Odometry::landmarks() const
+{
+	return impl_->estimator ? impl_->estimator->landmarks() : std::vector<LandmarkPoint>();
+}
+Status Odometry::status() const
+{
+	return impl_->estimator ? impl_->estimator->status() : Status::waiting;
+}
+std::vector<StatusChange> Odometry::statusChanges() const
+{
+	return impl_->estimator ? impl_->estimator->statusChanges() : std::vector<StatusChange>();
+}
+EstimatorCounters Odometry::counters() const
+{
+	return impl_->estimator ? impl_->estimator->counters() : EstimatorCounters();
+}
+CalibrationEstimate Odometry::calibrationEstimate() const
+{
+	return impl_->estimator ? impl_->estimator->calibration() : CalibrationEstimate();
+}
+const Calibration* Odometry::calibration() const
+{
+	return impl_->calibration ? &*impl_->calibration : nullptr;
+}
+const std::map<std::string, RejectionCounts>& Odometry::observationCounts() const
+{
+	return impl_->adapter.counts();
+}
+int64_t Odometry::firstFrame_ns() const
+{
+	return impl_->first_frame_ns.value_or(0);
+}
+void Odometry::onFrame(std::function<void(const FrameEstimate&)> callback)
+{
+	impl_->on_frame = std::move(callback);
+}
+void Odometry::onImuRate(std::function<void(const NavState&)> callback)
+{
+	impl_->on_imu_rate = std::move(callback);
+}
+const StageTimes& Odometry::stageTimes() const
+{
+	return impl_->times;
+}
 }  // namespace viwo

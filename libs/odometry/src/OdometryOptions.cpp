@@ -4,7 +4,8 @@ namespace viwo
 {
 std::vector<OptionsSection> OdometryOptions::sections()
 {
-	return {{"rawlog", &rawlog}, {"tracker", &tracker}, {"factors", &estimator.factors}, {"noise", &estimator.noise}, {"priors", &estimator.priors},
-		{"window", &estimator.window}, {"initializer", &estimator.initializer}};
+	return {
+	    {"rawlog", &rawlog},           {"tracker", &tracker},         {"factors", &estimator.factors},        {"noise", &estimator.noise},
+	    {"priors", &estimator.priors}, {"window", &estimator.window}, {"initializer", &estimator.initializer}};
 }
 }  // namespace viwo

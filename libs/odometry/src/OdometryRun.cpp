@@ -32,8 +32,12 @@ class Run
 {
    public:
 	Run(const OdometryRunOptions& options, const OdometryRunHooks& hooks)
-		: options_(options), hooks_(hooks), outputs_(options.output_dir, options.pose_frame), reader_(options.rawlog, readerOptions(options)),
-		  odometry_(options.odometry, calibrationOf(options)), begin_(Clock::now())
+	    : options_(options),
+	      hooks_(hooks),
+	      outputs_(options.output_dir, options.pose_frame),
+	      reader_(options.rawlog, readerOptions(options)),
+	      odometry_(options.odometry, calibrationOf(options)),
+	      begin_(Clock::now())
 	{
 		odometry_.setMinLoggingLevel(mrpt::system::LVL_WARN);
 		odometry_.stopWhen([this] { return interrupted(); });
@@ -69,7 +73,7 @@ class Run
 		const AdapterOptions& labels = options.odometry.rawlog;
 		RawlogReaderOptions r;
 		const EstimatorOptions& e = options.odometry.estimator;
-		r.labels = {labels.cam_label};	// gives the times of frames in every mode
+		r.labels = {labels.cam_label};  // gives the times of frames in every mode
 		if (e.useImu()) r.labels.push_back(labels.imu_label);
 		if (e.useWheels()) r.labels.push_back(labels.odometry_label);
 		r.action_odometry_label = labels.odometry_label;
@@ -81,7 +85,7 @@ class Run
 	{
 		const EstimatorOptions& e = options.odometry.estimator;
 		return readCalibration(options.rawlog, options.odometry.rawlog, e.useCamera() || options.pose_frame == PoseFrame::C,
-			e.useImu() || options.pose_frame == PoseFrame::B, true);
+		                       e.useImu() || options.pose_frame == PoseFrame::B, true);
 	}
 
 	void replay()
@@ -111,7 +115,7 @@ class Run
 	void keepPace(double t_s)
 	{
 		if (options_.replay_speed <= 0) return;
-		constexpr double kLongestSleep_s = 0.1;	 // a gap of the log may be hours
+		constexpr double kLongestSleep_s = 0.1;  // a gap of the log may be hours
 		const double due_s = (t_s - options_.from_s) / options_.replay_speed;
 		const auto now_s = [this] { return std::chrono::duration<double>(Clock::now() - begin_).count(); };
 		lag_s_ = std::max(0.0, now_s() - due_s);
@@ -159,8 +163,9 @@ class Run
 	/** Observations that could not be used, e.g. "IMU: 3 not_finite, 1 late; ODOMETRY: 2 duplicate_stamp"; empty if all could. */
 	std::string leftOut() const
 	{
-		std::map<std::string, std::string> reasons;	 // by label
-		const auto add = [&](const std::string& label, uint64_t count, const std::string& reason) {
+		std::map<std::string, std::string> reasons;  // by label
+		const auto add = [&](const std::string& label, uint64_t count, const std::string& reason)
+		{
 			if (count > 0) reasons[label] += (reasons[label].empty() ? ": " : ", ") + std::to_string(count) + " " + reason;
 		};
 		const std::vector<std::string> used = readerOptions(options_).labels;
@@ -181,8 +186,9 @@ class Run
 	std::string note(const FrameEstimate& e) const
 	{
 		char text[160];
-		std::snprintf(text, sizeof text, "%.1f s %s, %d features, x %.2f y %.2f m, sigma %.3f m", secondsBetween(odometry_.firstFrame_ns(), e.t_ns),
-			toString(e.status), e.features, e.T_WO.p.x(), e.T_WO.p.y(), std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)));
+		std::snprintf(text, sizeof text, "%.1f s %s, %d features, x %.2f y %.2f m, sigma %.3f m",
+		              secondsBetween(odometry_.firstFrame_ns(), e.t_ns), toString(e.status), e.features, e.T_WO.p.x(), e.T_WO.p.y(),
+		              std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)));
 		std::string line = text;
 		if (lag_s_ > 0.2)
 		{
@@ -205,7 +211,8 @@ class Run
 		outputs_.commit();
 		OdometryOptions effective = options_.odometry;
 		saveOptions(options_.output_dir + "/config.ini", effective.sections(),
-			"Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " + modeNames()[static_cast<size_t>(effective.estimator.mode)]);
+		            "Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " +
+		                modeNames()[static_cast<size_t>(effective.estimator.mode)]);
 		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts(), minutes_, gaps_);
 	}
 
@@ -216,7 +223,8 @@ class Run
 		if (const std::string left_out = leftOut(); !left_out.empty()) return where + "too much had to be left out (" + left_out + ")";
 		if (result_.frames == 0) return where + "no frame was processed; in the log: " + reader_.counts().describe();
 		return where + "the estimator is still " + toString(odometry_.status()) + " after " + std::to_string(result_.frames) + " frames" +
-			   (options_.odometry.estimator.mode == Mode::vio ? "; mode vio needs motion with parallax and acceleration" : "; see summary.json");
+		       (options_.odometry.estimator.mode == Mode::vio ? "; mode vio needs motion with parallax and acceleration"
+		                                                      : "; see summary.json");
 	}
 
 	const OdometryRunOptions& options_;

@@ -21,14 +21,16 @@ std::string madeFolder(const std::string& dir)
 void writePose(std::ostream& out, int64_t t_ns, const Pose3& T)
 {
 	char text[256];
-	std::snprintf(text, sizeof text, " %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(), T.R.w());
+	std::snprintf(text, sizeof text, " %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(),
+	              T.R.w());
 	out << formatSeconds(t_ns) << text;
 }
 
 void writeCovarianceHeader(std::ostream& out)
 {
 	static const char* const names[] = {"x", "y", "z", "roll", "pitch", "yaw"};
-	out << "# frame: O relative to the first pose; position in W's axes (m), rotation vector in O's axes (rad, R <- R Exp(d)): x y z roll pitch yaw\n";
+	out << "# frame: O relative to the first pose; position in W's axes (m), rotation vector in O's axes (rad, R <- R Exp(d)): x y z roll "
+	       "pitch yaw\n";
 	out << "t_s";
 	for (int i = 0; i < 6; ++i)
 		for (int j = i; j < 6; ++j) out << "," << names[i] << "_" << names[j];
@@ -39,7 +41,7 @@ void writeLandmarks(const std::string& path, const std::map<uint64_t, LandmarkPo
 {
 	AtomicFile file(path);
 	file.stream() << "ply\nformat ascii 1.0\ncomment landmarks in W, m\nelement vertex " << landmarks.size()
-				  << "\nproperty float x\nproperty float y\nproperty float z\nproperty float depth_deviation\nend_header\n";
+	              << "\nproperty float x\nproperty float y\nproperty float z\nproperty float depth_deviation\nend_header\n";
 	for (const auto& [id, point] : landmarks)
 	{
 		char text[128];
@@ -51,8 +53,11 @@ void writeLandmarks(const std::string& path, const std::map<uint64_t, LandmarkPo
 }  // namespace
 
 RunOutputs::RunOutputs(const std::string& dir, PoseFrame frame)
-	: dir_(madeFolder(dir)), frame_(frame), trajectory_(dir + "/trajectory.tum"), imu_rate_(dir + "/trajectory_imu_rate.tum"),
-	  covariance_(dir + "/trajectory_covariance.csv")
+    : dir_(madeFolder(dir)),
+      frame_(frame),
+      trajectory_(dir + "/trajectory.tum"),
+      imu_rate_(dir + "/trajectory_imu_rate.tum"),
+      covariance_(dir + "/trajectory_covariance.csv")
 {
 	writeCovarianceHeader(covariance_.stream());
 }
@@ -61,9 +66,12 @@ Pose3 RunOutputs::inFrame(const Pose3& T_WB, const Calibration& calibration, con
 {
 	switch (frame_)
 	{
-		case PoseFrame::B: return T_WB;
-		case PoseFrame::C: return T_WB * T_BC;
-		case PoseFrame::O: break;
+		case PoseFrame::B:
+			return T_WB;
+		case PoseFrame::C:
+			return T_WB * T_BC;
+		case PoseFrame::O:
+			break;
 	}
 	return T_WB * calibration.T_BO();
 }

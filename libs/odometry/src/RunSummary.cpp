@@ -49,7 +49,10 @@ Json statusJson(const Odometry& odometry)
 {
 	Json changes = Json::array();
 	for (const StatusChange& c : odometry.statusChanges())
-		changes.push_back({{"t_s", secondsBetween(odometry.firstFrame_ns(), c.t_ns)}, {"from", toString(c.from)}, {"to", toString(c.to)}, {"cause", c.cause}});
+		changes.push_back({{"t_s", secondsBetween(odometry.firstFrame_ns(), c.t_ns)},
+		                   {"from", toString(c.from)},
+		                   {"to", toString(c.to)},
+		                   {"cause", c.cause}});
 	return changes;
 }
 
@@ -66,8 +69,8 @@ Json calibrationJson(const Odometry& odometry)
 	const CalibrationEstimate c = odometry.calibrationEstimate();
 	const auto& q = c.T_BC.R;
 	return {{"T_BC", {{"p_m", {c.T_BC.p.x(), c.T_BC.p.y(), c.T_BC.p.z()}}, {"q_xyzw", {q.x(), q.y(), q.z(), q.w()}}}},
-		{"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
-		{"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
+	        {"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
+	        {"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
 }
 Json gapsJson(const GapLog& log, int64_t first_frame_ns)
 {
@@ -77,16 +80,21 @@ Json gapsJson(const GapLog& log, int64_t first_frame_ns)
 	return gaps;
 }
 
-Json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json vectorJson(const Eigen::Vector3d& v)
+{
+	return {v.x(), v.y(), v.z()};
+}
 
 /** What was known when the first pose was given: how well the estimator started. */
 Json firstPoseJson(const FrameEstimate& first, const Calibration& calibration)
 {
 	const Eigen::Quaterniond& q = first.T_WO.R;
-	return {{"t_ns", first.t_ns}, {"status", toString(first.status)}, {"R_WO_xyzw", {q.x(), q.y(), q.z(), q.w()}},
-		{"v_WB_in_B_m_s", vectorJson(first.state.T_WB.R.conjugate() * first.state.v_WB)},
-		{"gyro_bias_in_O_rad_s", vectorJson(calibration.T_OB.R * first.state.b_g)},
-		{"acc_bias_in_O_m_s2", vectorJson(calibration.T_OB.R * first.state.b_a)}};
+	return {{"t_ns", first.t_ns},
+	        {"status", toString(first.status)},
+	        {"R_WO_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+	        {"v_WB_in_B_m_s", vectorJson(first.state.T_WB.R.conjugate() * first.state.v_WB)},
+	        {"gyro_bias_in_O_rad_s", vectorJson(calibration.T_OB.R * first.state.b_g)},
+	        {"acc_bias_in_O_m_s2", vectorJson(calibration.T_OB.R * first.state.b_a)}};
 }
 
 /** Share of the duration in which poses follow each other; what viwo-evaluate finds, too, with its default gap. */
@@ -106,7 +114,8 @@ Json minutesJson(const MinuteLog& log, const StageTimes& times)
 	for (const MinuteLog::Minute& minute : log.minutes())
 	{
 		const StageTimes::Statistics s = times.statistics("frame", begin, begin + minute.frames);
-		minutes.push_back({{"minute", minute.number}, {"frames", minute.frames}, {"frame_median_ms", s.median_ms}, {"rss_mb", minute.rss_mb}});
+		minutes.push_back(
+		    {{"minute", minute.number}, {"frames", minute.frames}, {"frame_median_ms", s.median_ms}, {"rss_mb", minute.rss_mb}});
 		begin += minute.frames;
 	}
 	return minutes;
@@ -114,7 +123,7 @@ Json minutesJson(const MinuteLog& log, const StageTimes& times)
 }  // namespace
 
 void writeSummary(const std::string& path, const OdometryRunOptions& options, const OdometryRunResult& result, const Odometry& odometry,
-	const RunOutputs& outputs, const RawlogCounts& counts, const MinuteLog& minutes, const GapLog& gaps)
+                  const RunOutputs& outputs, const RawlogCounts& counts, const MinuteLog& minutes, const GapLog& gaps)
 {
 	const EstimatorCounters n = odometry.counters();
 	Json j;

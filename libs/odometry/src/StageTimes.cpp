@@ -7,7 +7,10 @@
 
 namespace viwo
 {
-void StageTimes::begin(const std::string& stage) { stages_[stage].begin = std::chrono::steady_clock::now(); }
+void StageTimes::begin(const std::string& stage)
+{
+	stages_[stage].begin = std::chrono::steady_clock::now();
+}
 
 void StageTimes::end(const std::string& stage) noexcept
 try

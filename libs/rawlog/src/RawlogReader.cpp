@@ -74,7 +74,7 @@ struct RawlogReader::Impl
 	RawlogCounts counts;
 	int64_t window_ns;
 	std::map<const CObservation*, std::string> errors;  //!< of observations that are still at the gate
-	std::multimap<int64_t, Queued> queue;  //!< by stamp; of equal stamps in the order of the file
+	std::multimap<int64_t, Queued> queue;               //!< by stamp; of equal stamps in the order of the file
 	int64_t newest_ns = std::numeric_limits<int64_t>::min();
 	std::optional<int64_t> last_delivered_ns;
 	bool ended = false;

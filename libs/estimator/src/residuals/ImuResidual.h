@@ -40,7 +40,7 @@ class ImuResidual : public LocalCost
 	{
 		Eigen::Matrix3d R_BiW, R_BjBi;
 		Eigen::Vector3d travel, speed_change;  //!< by the states, in B_i
-		Eigen::Vector3d theta;	//!< correction of gamma
+		Eigen::Vector3d theta;                 //!< correction of gamma
 	};
 	/** @param r the residual before whitening. */
 	Terms evaluate(double const* const* x, Vector15& r) const;

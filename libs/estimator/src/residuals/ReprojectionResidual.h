@@ -16,8 +16,8 @@ namespace viwo
  *      r    = A^T f / |f| / sigma,   df/|f| = (I - u u^T) df / |f|,  u = f / |f|
  *
  *  A: two tangents of the measured bearing b_j (3x2). The error is also zero where f points away from b_j, so b_j^T f <= 0 is not valid.
- *  A lambda <= 0 is beyond infinity: valid() refuses it, but the residual goes on smoothly, so that one far landmark whose step overshoots does not
- *  make the solver reject the step of all states.
+ *  A lambda <= 0 is beyond infinity: valid() refuses it, but the residual goes on smoothly, so that one far landmark whose step overshoots
+ * does not make the solver reject the step of all states.
  *
  *  Blocks: pose T_WB_i, pose T_WB_j, pose T_BC, inverse depth lambda (1/m). Two residuals.
  */

@@ -17,11 +17,11 @@ namespace viwo
 {
 enum class Status
 {
-	waiting,  //!< nothing to work with yet, or without the IMU nothing that carries on: no pose
-	initialising,  //!< gathering data for the first pose, or for a new start: no pose
-	from_wheels,  //!< poses from wheels and IMU; landmarks are not known well enough yet
-	tracking,  //!< camera, IMU and (unless mode vio) wheels
-	dead_reckoning	//!< camera lost: IMU and wheels carry on; or IMU or window lost: the wheels carry on
+	waiting,        //!< nothing to work with yet, or without the IMU nothing that carries on: no pose
+	initialising,   //!< gathering data for the first pose, or for a new start: no pose
+	from_wheels,    //!< poses from wheels and IMU; landmarks are not known well enough yet
+	tracking,       //!< camera, IMU and (unless mode vio) wheels
+	dead_reckoning  //!< camera lost: IMU and wheels carry on; or IMU or window lost: the wheels carry on
 };
 
 const char* toString(Status status);
@@ -40,14 +40,14 @@ struct FrameEstimate
 	int64_t t_ns = 0;
 	bool has_pose = false;
 	Status status = Status::waiting;
-	NavState state;	 //!< of B in W
+	NavState state;  //!< of B in W
 	Pose3 T_WO;
-	/** Of T_WO relative to the first pose, over new starts too: position in W's axes (m), rotation vector in O's axes (rad, right perturbation): x y z roll
-	 *  pitch yaw. */
+	/** Of T_WO relative to the first pose, over new starts too: position in W's axes (m), rotation vector in O's axes (rad, right
+	 * perturbation): x y z roll pitch yaw. */
 	Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 	bool slip = false;
 	bool standing = false;
-	int landmarks = 0;	//!< of known depth, in the window
+	int landmarks = 0;  //!< of known depth, in the window
 	int features = 0;
 };
 
@@ -55,7 +55,7 @@ struct LandmarkPoint
 {
 	uint64_t id = 0;
 	Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-	double depth_deviation = 0;	 //!< relative deviation of the inverse depth
+	double depth_deviation = 0;  //!< relative deviation of the inverse depth
 };
 
 struct EstimatorCounters
@@ -63,7 +63,7 @@ struct EstimatorCounters
 	int frames = 0;
 	int keyframes = 0;
 	int slip_events = 0;
-	int reinitializations = 0;	//!< windows lost
+	int reinitializations = 0;  //!< windows lost
 	int standstills = 0;
 	int imu_gaps = 0;  //!< holes in the stream, however many frames they spoil
 	int wheel_gaps = 0;
@@ -95,15 +95,17 @@ class Estimator
 	bool addImu(const ImuSample& sample);
 	bool addWheels(const WheelSample& sample);
 
-	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. One that is not
-	 *  later than the last is ignored. Where the IMU does not reach it, the wheels alone give its pose, and without wheels there is none.
+	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. One
+	 * that is not later than the last is ignored. Where the IMU does not reach it, the wheels alone give its pose, and without wheels there
+	 * is none.
 	 */
 	FrameEstimate addFrame(const FeatureFrame& frame);
 
 	/** R_Cprev_Ccur from the gyro between two stamps, less the estimated bias; identity where the IMU does not cover them. */
 	Eigen::Quaterniond predictCameraRotation(int64_t t_prev_ns, int64_t t_cur_ns) const;
 
-	/** The last frame's state carried on by the IMU: one state per IMU sample in (t_after_ns, t_until_ns], before the next frame is added. */
+	/** The last frame's state carried on by the IMU: one state per IMU sample in (t_after_ns, t_until_ns], before the next frame is added.
+	 */
 	std::vector<NavState> propagate(int64_t t_after_ns, int64_t t_until_ns) const;
 
 	Status status() const;

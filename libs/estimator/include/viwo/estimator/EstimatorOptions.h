@@ -43,7 +43,8 @@ struct FactorOptions : Options<FactorOptions>
 		v("wheel_factor", wheel_factor, "wheel preintegration between frames (paper Eq. 19)");
 		v("plane_factor", plane_factor, "planar motion (paper Eq. 20, as a plane state)");
 		v("plane_pairwise", plane_pairwise, "the paper's form: each frame against the oldest, instead of a plane state");
-		v("wheels_in_initialization", wheels_in_initialization, "start from wheels at once, and wheel rows in the alignment (paper Sec. 5)");
+		v("wheels_in_initialization", wheels_in_initialization,
+		  "start from wheels at once, and wheel rows in the alignment (paper Sec. 5)");
 		v("slip_gate", slip_gate, "inflate a wheel factor that contradicts gyro or prediction");
 		v("standstill_factor", standstill_factor, "zero-velocity factor when wheels and gyro are quiet");
 		v("estimate_wheel_intrinsics", estimate_wheel_intrinsics, "left and right scale and track as states");
@@ -72,8 +73,10 @@ struct NoiseOptions : Options<NoiseOptions>
 		v("wheel_lateral_m_s_sqrtHz", wheels.lateral_m_s_sqrtHz, "side slip", 1e-6, 10.0);
 		v("wheel_vertical_m_s_sqrtHz", wheels.vertical_m_s_sqrtHz, "vertical motion", 1e-6, 10.0);
 		v("wheel_tilt_rad_s_sqrtHz", wheels.tilt_rad_s_sqrtHz, "roll and pitch rates", 1e-6, 10.0);
-		v("pixel_sigma_px", pixel_sigma_px, "of a tracked corner, with the error of its first sighting, which all others share", 0.01, 20.0);
-		v("start_pixel_sigma_px", start_pixel_sigma_px, "of a corner from one image to the next: the vision start and standstill", 0.01, 20.0);
+		v("pixel_sigma_px", pixel_sigma_px, "of a tracked corner, with the error of its first sighting, which all others share", 0.01,
+		  20.0);
+		v("start_pixel_sigma_px", start_pixel_sigma_px, "of a corner from one image to the next: the vision start and standstill", 0.01,
+		  20.0);
 		v("gravity_m_s2", gravity_m_s2, "|g| where the robot drives", 9.7, 9.9);
 	}
 };
@@ -108,9 +111,11 @@ struct PriorOptions : Options<PriorOptions>
 		v("track_relative", track_relative, "track, relative", 1e-6, 0.5);
 		v("velocity_m_s", velocity_m_s, "velocity at the start", 1e-4, 100.0);
 		v("inverse_depth_mean_1_m", inverse_depth_mean_1_m, "of a landmark not yet triangulated", 1e-3, 10.0);
-		v("inverse_depth_sigma_1_m", inverse_depth_sigma_1_m, "its deviation: wide, since a prior on depth would be one on scale", 1e-2, 100.0);
+		v("inverse_depth_sigma_1_m", inverse_depth_sigma_1_m, "its deviation: wide, since a prior on depth would be one on scale", 1e-2,
+		  100.0);
 		v("plane_tilt_deg", plane_tilt_deg, "tilt of the floor against gravity at the start", 1e-3, 45.0);
-		v("plane_factor_tilt_deg", plane_factor_tilt_deg, "roll and pitch of the robot on its floor, correlated over about a metre", 1e-3, 45.0);
+		v("plane_factor_tilt_deg", plane_factor_tilt_deg, "roll and pitch of the robot on its floor, correlated over about a metre", 1e-3,
+		  45.0);
 		v("plane_factor_height_m", plane_factor_height_m, "height of the robot over its floor", 1e-5, 10.0);
 		v("plane_walk_tilt_deg_sqrtm", plane_walk_tilt_deg_sqrtm, "change of the floor's tilt with the distance driven", 1e-6, 45.0);
 		v("plane_walk_height_m_sqrtm", plane_walk_height_m_sqrtm, "change of the floor's height with the distance driven", 1e-7, 10.0);
@@ -142,7 +147,8 @@ struct WindowOptions : Options<WindowOptions>
 	void visit(Visitor& v)
 	{
 		v("keyframes", keyframes, "in the window, beside the latest frame", 3, 40);
-		v("keyframe_parallax_px", keyframe_parallax_px, "mean parallax, rotation removed, that makes a keyframe (at 460 px focal length)", 0.5, 500.0);
+		v("keyframe_parallax_px", keyframe_parallax_px, "mean parallax, rotation removed, that makes a keyframe (at 460 px focal length)",
+		  0.5, 500.0);
 		v("keyframe_min_tracked", keyframe_min_tracked, "fewer tracks than this make a keyframe", 0, 1000);
 		v("max_interval_s", max_interval_s, "longest preintegration interval while standing", 0.2, 60.0);
 		v("max_iterations", max_iterations, "of the solver for one frame", 1, 100);
@@ -153,7 +159,8 @@ struct WindowOptions : Options<WindowOptions>
 		v("start_after_s", start_after_s, "data gathered before the first pose when starting from wheels", 0.1, 10.0);
 		v("max_imu_gap_s", max_imu_gap_s, "longest hole in the IMU stream that is interpolated", 0.001, 10.0);
 		v("max_wheel_gap_s", max_wheel_gap_s, "longest hole in the wheel stream that is bridged", 0.001, 10.0);
-		v("reinitialize_after_gap_s", reinitialize_after_gap_s, "a longer hole in the IMU stream starts anew, in the same world frame", 0.1, 1000.0);
+		v("reinitialize_after_gap_s", reinitialize_after_gap_s, "a longer hole in the IMU stream starts anew, in the same world frame", 0.1,
+		  1000.0);
 		v("dead_reckoning_after_s", dead_reckoning_after_s, "without enough landmarks before the status says so", 0.0, 1000.0);
 		v("tracking_min_landmarks", tracking_min_landmarks, "landmarks of known depth for status tracking", 1, 1000);
 		v("tracking_depth_deviation", tracking_depth_deviation, "relative deviation of inverse depth that counts as known", 0.01, 1.0);

@@ -41,7 +41,8 @@ class Odometry : public mrpt::system::COutputLogger
 	/** No more observations: processes the images that still wait for samples. */
 	void finish();
 
-	/** Asked before every frame; once it says true, no more are made (one observation may make many: see OdometryOptions::longest_blind_s). */
+	/** Asked before every frame; once it says true, no more are made (one observation may make many: see OdometryOptions::longest_blind_s).
+	 */
 	void stopWhen(std::function<bool()> asked);
 
 	/** The newest frame's result; has_pose is false before the first. */

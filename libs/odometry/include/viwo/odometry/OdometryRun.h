@@ -11,19 +11,19 @@ namespace viwo
 /** Which frame's pose in W is written. */
 enum class PoseFrame
 {
-	O,	//!< MRPT's vehicle frame: midpoint of the wheel axle on the ground
-	B,	//!< IMU body
-	C  //!< camera, optical axes
+	O,  //!< MRPT's vehicle frame: midpoint of the wheel axle on the ground
+	B,  //!< IMU body
+	C   //!< camera, optical axes
 };
 
 struct OdometryRunOptions
 {
 	std::string rawlog;
-	std::string output_dir;	 //!< made if it is not there
+	std::string output_dir;   //!< made if it is not there
 	std::string config_path;  //!< for the summary only
 	OdometryOptions odometry;
 	PoseFrame pose_frame = PoseFrame::O;
-	double from_s = 0;	//!< of the log, from its first stamp
+	double from_s = 0;  //!< of the log, from its first stamp
 	double to_s = std::numeric_limits<double>::infinity();
 	double replay_speed = 0;  //!< 1 = by the log's clock; 0 = as fast as it goes
 	bool allow_truncated = false;
@@ -32,7 +32,7 @@ struct OdometryRunOptions
 struct OdometryRunResult
 {
 	int frames = 0, poses = 0;
-	double duration_s = 0;	//!< of the frames
+	double duration_s = 0;  //!< of the frames
 	double path_length_m = 0;
 	double wall_time_s = 0;
 	std::string final_status;
@@ -51,8 +51,9 @@ struct OdometryRunHooks
 	std::function<bool()> interrupted;
 };
 
-/** A rawlog through viwo::Odometry into a folder: trajectory.tum, trajectory_imu_rate.tum, trajectory_covariance.csv, landmarks.ply, summary.json,
- *  config.ini. Files appear under their names when they are whole. An error in mid-log, or an interruption, leaves files that are valid up to there.
+/** A rawlog through viwo::Odometry into a folder: trajectory.tum, trajectory_imu_rate.tum, trajectory_covariance.csv, landmarks.ply,
+ * summary.json, config.ini. Files appear under their names when they are whole. An error in mid-log, or an interruption, leaves files that
+ * are valid up to there.
  *  @throws Error with one line for the user.
  */
 OdometryRunResult runOdometry(const OdometryRunOptions& options, const OdometryRunHooks& hooks = {});

@@ -17,8 +17,8 @@ struct RawlogReaderOptions
 	std::vector<std::string> labels;
 	/** Observations are sorted by stamp within this span. */
 	double reorder_window_s = 0.5;
-	/** Observations whose stamp is farther than this from the stream are dropped (and counted), unless the whole stream goes on there; 0: none
-	 * are. See StampGate. */
+	/** Observations whose stamp is farther than this from the stream are dropped (and counted), unless the whole stream goes on there; 0:
+	 * none are. See StampGate. */
 	double max_stamp_jump_s = 60;
 	/** The end of a truncated file is an end like any other; see RawlogReader::truncated(). */
 	bool allow_truncated = false;

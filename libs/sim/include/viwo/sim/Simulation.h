@@ -11,10 +11,10 @@ namespace viwo::sim
 struct SimulationRunOptions
 {
 	bool images = true;  //!< false: a log without a camera
-	/** Folder of another run's images that are taken over instead of rendering: it must have had the same world, route, camera, floor, vibration
-	 * and seed, but may have had other wheels or another IMU. */
+	/** Folder of another run's images that are taken over instead of rendering: it must have had the same world, route, camera, floor,
+	 * vibration and seed, but may have had other wheels or another IMU. */
 	std::string images_from;
-	int threads = 1;     //!< that render; the files do not depend on it
+	int threads = 1;  //!< that render; the files do not depend on it
 	/** Called from the calling thread with the part that is done, 0 to 1; false ends the run: what is finished is kept as a shorter log. */
 	std::function<bool(double fraction)> progress;
 };
