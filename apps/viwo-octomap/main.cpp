@@ -1,0 +1,163 @@
+#include <viwo/app/Program.h>
+#include <viwo/core/PeakMemory.h>
+#include <viwo/mapping/OctoMapRun.h>
+#include <viwo/mapping/OctreeFiles.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+using namespace viwo;
+
+namespace
+{
+struct Arguments
+{
+	OctoMapRunOptions run;
+	std::vector<std::string> sources;
+	std::string colour = "none";
+	bool filter_ground = false;
+	GroundFilter ground;
+};
+
+void declareOutputs(CLI::App& cli, Arguments& a)
+{
+	cli.add_option("-i,--input", a.run.rawlog, "Rawlog")->required()->check(app::notEmpty());
+	cli.add_option("-t,--trajectory", a.run.trajectory, "Trajectory of the vehicle (TUM)")->required()->check(app::notEmpty());
+	cli.add_option("-o,--output", a.run.output, "OctoMap: .bt (free, occupied, unknown) or .ot (log-odds, colours)")
+	    ->required()
+	    ->check(app::notEmpty());
+	cli.add_flag("--both", a.run.both, "Write both .bt and .ot");
+	cli.add_option("--scan-graph", a.run.scan_graph, "Write the scans as text for octomap's log2graph, too (.log)");
+	cli.add_option("--to-ply", a.run.ply, "Write the centres of the occupied voxels, too");
+	cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)");
+	cli.add_option("--grid-min-z", a.run.grid_min_z_m, "From this height on, m")->capture_default_str();
+	cli.add_option("--grid-max-z", a.run.grid_max_z_m, "Up to this height, m")->capture_default_str();
+	cli.add_option("--colour", a.colour, "ColorOcTree: colours of the sensor's returns, or by height (.ot only)")
+	    ->check(CLI::IsMember({"none", "sensor", "height"}))
+	    ->capture_default_str();
+}
+
+void declareSources(CLI::App& cli, Arguments& a)
+{
+	RayOptions& rays = a.run.rays;
+	cli.add_option("--sources", a.sources, "Which of scans, depth, clouds, landmarks; without it all there are")
+	    ->delimiter(',')
+	    ->check(CLI::IsMember({"scans", "depth", "clouds", "landmarks"}));
+	cli.add_option("--landmarks", a.run.landmarks_dir, "Output folder of viwo-odometry: its landmarks go in as well");
+	cli.add_option("--max-landmark-deviation", a.run.max_landmark_deviation,
+	               "Landmarks with a larger relative deviation of depth are left out")
+	    ->check(app::positive())
+	    ->capture_default_str();
+	cli.add_option("--flags", a.run.flags, "trajectory_covariance.csv: observations whose pose is flagged as bad are left out");
+	cli.add_option("--bad-flags", a.run.bad_flags, "Flags that count as bad")->delimiter(',')->capture_default_str();
+	cli.add_option("--max-gap", rays.max_gap_s, "Longest gap of the trajectory to interpolate across, s")
+	    ->check(app::positive())
+	    ->capture_default_str();
+	cli.add_option("--scan-duration", rays.scan_duration_s, "Planar scans: from the first to the last beam, s; 0: all at once")
+	    ->check(app::nonNegative())
+	    ->capture_default_str();
+	cli.add_option("--stamp-position", rays.stamp_position, "Planar scans: where in the sweep the stamp lies, 0 first beam, 1 last")
+	    ->check(app::nonNegative())
+	    ->check(CLI::Range(0.0, 1.0))
+	    ->capture_default_str();
+	cli.add_option("--min-range", rays.min_range_m, "Nearer returns are left out, m")->check(app::nonNegative())->capture_default_str();
+	cli.add_option("--subsample", rays.subsample, "Every n-th return of an observation")
+	    ->check(CLI::Range(1, 1000000))
+	    ->capture_default_str();
+	cli.add_option("--pointcloud-min-z", rays.min_z_m, "Returns below this height in the map are left out, m");
+	cli.add_option("--pointcloud-max-z", rays.max_z_m, "Returns above this height in the map are left out, m");
+	cli.add_flag("--filter-ground", a.filter_ground, "Depth images and clouds: the ground is not occupied");
+	cli.add_option("--ground-distance", a.ground.distance_m, "Points this near to the ground's plane belong to it, m")
+	    ->check(app::positive())
+	    ->capture_default_str();
+	cli.add_option("--ground-angle", a.ground.angle_rad, "Largest slope of that plane, rad")->check(app::positive())->capture_default_str();
+	cli.add_option("--ground-plane-distance", a.ground.plane_distance_m, "Largest distance of that plane from the vehicle's origin, m")
+	    ->check(app::positive())
+	    ->capture_default_str();
+	cli.add_flag("--allow-truncated", a.run.allow_truncated, "Take a truncated rawlog as far as it goes");
+}
+
+void declareModel(CLI::App& cli, Arguments& a)
+{
+	cli.add_option("--resolution", a.run.resolution_m, "Edge of a voxel, m")->check(app::positive())->capture_default_str();
+	cli.add_option("--max-range", a.run.casting.max_range_m, "Longer rays only clear, up to this, m; -1: no limit")->capture_default_str();
+	cli.add_flag("--discretize", a.run.casting.discretize, "One ray for each voxel hit in an observation");
+	cli.add_option("--hit", a.run.model.hit, "Sensor model: probability of a hit")->capture_default_str();
+	cli.add_option("--miss", a.run.model.miss, "Sensor model: probability of a miss")->capture_default_str();
+	cli.add_option("--min", a.run.model.clamping_min, "Sensor model: clamping limit of free voxels")->capture_default_str();
+	cli.add_option("--max", a.run.model.clamping_max, "Sensor model: clamping limit of occupied voxels")->capture_default_str();
+	cli.add_option("--occupancy-thres", a.run.model.occupancy_threshold, "Probability from which on a voxel is occupied")
+	    ->capture_default_str();
+	cli.add_option("--threads", a.run.threads, "Threads; the result does not depend on them")
+	    ->check(CLI::Range(1, 256))
+	    ->capture_default_str();
+	cli.footer(
+	    "Examples:\n"
+	    "  viwo-octomap -i run.rawlog -t truth/trajectory.tum -o run.bt --flags truth/trajectory_covariance.csv\n"
+	    "  viwo-octomap -i run.rawlog -t out/trajectory.tum -o run.ot --landmarks out --colour height --to-ply run.ply\n"
+	    "  viwo-octomap -i run.rawlog -t out/trajectory.tum -o run.bt --sources depth --discretize --max-range 4 --to-grid run.yaml\n"
+	    "Exit status: 0 done, 1 failed, 2 bad usage.");
+}
+
+void interpret(Arguments& a)
+{
+	OctoMapRunOptions& run = a.run;
+	try
+	{
+		octreeFormatOf(run.output);
+	}
+	catch (const Error& e)
+	{
+		throw app::UsageError(e.what());
+	}
+	const auto asked = [&](const char* source) { return a.sources.empty() || std::count(a.sources.begin(), a.sources.end(), source) > 0; };
+	run.rays.scans = asked("scans");
+	run.rays.depth = asked("depth");
+	run.rays.clouds = asked("clouds");
+	if (!asked("landmarks")) run.landmarks_dir.clear();
+	if (!a.sources.empty() && asked("landmarks") && run.landmarks_dir.empty())
+		throw app::UsageError("--sources landmarks needs --landmarks DIR, the output folder of viwo-odometry");
+	if (a.filter_ground) run.rays.ground = a.ground;
+	run.colours = a.colour == "none" ? VoxelColours::none : a.colour == "sensor" ? VoxelColours::sensor : VoxelColours::height;
+}
+
+void print(const Arguments& a, const OctoMapRunResult& r)
+{
+	std::printf("%s: %zu observations, %zu rays; %zu occupied and %zu free leaves; %.1f s, %.0f MiB\n", a.run.output.c_str(), r.used, r.rays,
+	            r.occupied, r.free, r.wall_time_s, peakMemory_mb());
+	std::fflush(stdout);
+	if (app::quiet()) return;
+	const auto note = [](size_t count, const char* what)
+	{
+		if (count > 0) std::fprintf(stderr, "viwo-octomap: note: %zu %s\n", count, what);
+	};
+	note(r.flagged, "observations left out: their poses are flagged as bad");
+	note(r.no_pose, "observations left out: no pose at their time");
+	note(r.empty, "observations have no return");
+	note(r.unusable_rays, "rays left out: beyond the octree or not finite");
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+	CLI::App cli("OctoMap out of a rawlog and a trajectory: scans, depth images, point clouds, landmarks.", "viwo-octomap");
+	Arguments arguments;
+	arguments.run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
+	declareOutputs(cli, arguments);
+	declareSources(cli, arguments);
+	declareModel(cli, arguments);
+	return app::run(cli, argc, argv,
+	                [&]
+	                {
+		                interpret(arguments);
+		                app::ProgressBar bar;
+		                OctoMapRunHooks hooks;
+		                hooks.progress = [&](double fraction, const std::string& note) { bar.update(fraction, note); };
+		                hooks.interrupted = [] { return app::interrupted(); };
+		                const OctoMapRunResult result = runOctoMap(arguments.run, hooks);
+		                bar.clear();
+		                print(arguments, result);
+		                return 0;
+	                });
+}

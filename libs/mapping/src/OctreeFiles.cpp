@@ -1,0 +1,203 @@
+#include <viwo/core/Error.h>
+#include <viwo/mapping/OctreeFiles.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace viwo
+{
+namespace
+{
+constexpr int kCentreKey = 32768;  //!< of the voxel that begins at 0 m
+
+/** A leaf's voxels: [first, first + size) in each direction, 0 at the map's origin. */
+struct LeafExtent
+{
+	int first[3];
+	int size;
+};
+
+template <class Iterator>
+LeafExtent extentOf(const Iterator& leaf, unsigned tree_depth)
+{
+	const octomap::OcTreeKey key = leaf.getIndexKey();
+	return {{key[0] - kCentreKey, key[1] - kCentreKey, key[2] - kCentreKey}, 1 << (tree_depth - leaf.getDepth())};
+}
+
+template <class Value>
+void putLittleEndian(std::string& bytes, Value value)
+{
+	uint32_t word = 0;
+	std::memcpy(&word, &value, sizeof value);
+	for (size_t i = 0; i < sizeof value; ++i) bytes += static_cast<char>(word >> (8 * i) & 0xffu);
+}
+
+void putColour(std::string&, const octomap::OcTreeNode&) {}
+void putColour(std::string& bytes, const octomap::ColorOcTreeNode& node)
+{
+	const auto c = node.getColor();
+	for (const uint8_t part : {c.r, c.g, c.b}) bytes += static_cast<char>(part);
+}
+
+template <class Tree>
+constexpr bool kHasColour = std::is_same_v<Tree, octomap::ColorOcTree>;
+
+/** All leaves that reach into the layers [first, last]. */
+template <class Tree, class Visit>
+void visitLayers(const Tree& tree, int first, int last, const Visit& visit)
+{
+	for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+	{
+		const LeafExtent extent = extentOf(leaf, tree.getTreeDepth());
+		if (extent.first[2] <= last && extent.first[2] + extent.size > first) visit(extent, tree.isNodeOccupied(*leaf));
+	}
+}
+
+int layerOf(double layers)
+{
+	return static_cast<int>(std::clamp(std::floor(layers), -1.0 * kCentreKey, kCentreKey - 1.0));
+}
+}  // namespace
+
+OctreeFormat octreeFormatOf(const std::string& path)
+{
+	const std::string extension = std::filesystem::path(path).extension().string();
+	if (extension == ".ot") return OctreeFormat::ot;
+	if (extension == ".bt") return OctreeFormat::bt;
+	throw Error(path + ": an OctoMap's name ends in .bt or .ot");
+}
+
+template <class Tree>
+void writeOctree(std::ostream& out, Tree& tree, OctreeFormat format)
+{
+	// Through memory: liboctomap prints warnings of its own about a stream that fails.
+	std::ostringstream bytes;
+	if (format == OctreeFormat::ot)
+		tree.write(bytes);
+	else
+		tree.writeBinary(bytes);
+	out << bytes.str();
+}
+
+template <class Tree>
+void writeOccupiedPly(std::ostream& out, const Tree& tree)
+{
+	size_t count = 0;
+	std::string bytes;
+	const double resolution_m = tree.getResolution();
+	for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+	{
+		if (!tree.isNodeOccupied(*leaf)) continue;
+		const LeafExtent e = extentOf(leaf, tree.getTreeDepth());
+		for (int i = 0; i < e.size * e.size * e.size; ++i)
+		{
+			const int at[] = {e.first[0] + i % e.size, e.first[1] + i / e.size % e.size, e.first[2] + i / (e.size * e.size)};
+			for (const int k : at) putLittleEndian(bytes, static_cast<float>((k + 0.5) * resolution_m));
+			putColour(bytes, *leaf);
+			++count;
+		}
+	}
+	out << "ply\nformat binary_little_endian 1.0\ncomment centres of occupied voxels of " << resolution_m
+	    << " m, in the map, m\nelement vertex " << count << "\nproperty float x\nproperty float y\nproperty float z\n"
+	    << (kHasColour<Tree> ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "") << "end_header\n"
+	    << bytes;
+}
+
+template <class Tree>
+OccupancyImage projection(const Tree& tree, double min_z_m, double max_z_m)
+{
+	const double resolution_m = tree.getResolution();
+	const int first = layerOf(min_z_m / resolution_m + 1e-9), last = std::max(first, layerOf(max_z_m / resolution_m - 1e-9));
+	int min[] = {kCentreKey, kCentreKey}, max[] = {-kCentreKey, -kCentreKey};
+	visitLayers(tree, first, last,
+	            [&](const LeafExtent& e, bool)
+	            {
+		            for (size_t i = 0; i < 2; ++i)
+		            {
+			            min[i] = std::min(min[i], e.first[i]);
+			            max[i] = std::max(max[i], e.first[i] + e.size);
+		            }
+	            });
+	if (max[0] <= min[0])
+		throw Error("the octree knows nothing between the heights " + std::to_string(min_z_m) + " and " + std::to_string(max_z_m) + " m");
+	OccupancyImage image;
+	image.columns = max[0] - min[0];
+	image.rows = max[1] - min[1];
+	image.min_x_m = min[0] * resolution_m;
+	image.min_y_m = min[1] * resolution_m;
+	image.resolution_m = resolution_m;
+	image.cells.assign(static_cast<size_t>(image.columns) * static_cast<size_t>(image.rows), OccupancyImage::kUnknown);
+	visitLayers(tree, first, last,
+	            [&](const LeafExtent& e, bool occupied)
+	            {
+		            for (int y = e.first[1] - min[1]; y < e.first[1] - min[1] + e.size; ++y)
+			            for (int x = e.first[0] - min[0]; x < e.first[0] - min[0] + e.size; ++x)
+			            {
+				            uint8_t& cell = image.cell(x, y);
+				            if (occupied)
+					            cell = OccupancyImage::kOccupied;
+				            else if (cell == OccupancyImage::kUnknown)
+					            cell = OccupancyImage::kFree;
+			            }
+	            });
+	return image;
+}
+
+OccupancyImage loadProjection(const std::string& path, double min_z_m, double max_z_m)
+{
+	std::ifstream file(path, std::ios::binary);
+	if (!file) throw Error(path + ": cannot read this octree; check its name");
+	std::unique_ptr<octomap::AbstractOcTree> tree;
+	if (octreeFormatOf(path) == OctreeFormat::bt)
+	{
+		auto binary = std::make_unique<octomap::OcTree>(0.1);
+		if (binary->readBinary(file)) tree = std::move(binary);
+	}
+	else
+		tree.reset(octomap::AbstractOcTree::read(file));
+	try
+	{
+		if (const auto* plain = dynamic_cast<octomap::OcTree*>(tree.get())) return projection(*plain, min_z_m, max_z_m);
+		if (const auto* coloured = dynamic_cast<octomap::ColorOcTree*>(tree.get())) return projection(*coloured, min_z_m, max_z_m);
+	}
+	catch (const Error& e)
+	{
+		throw Error(path + ": " + e.what());
+	}
+	throw Error(path + ": not an OctoMap file (OcTree or ColorOcTree), or damaged");
+}
+
+void colourByHeight(octomap::ColorOcTree& tree)
+{
+	double low = std::numeric_limits<double>::infinity(), high = -low;
+	for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+	{
+		if (!tree.isNodeOccupied(*leaf)) continue;
+		low = std::min(low, leaf.getZ());
+		high = std::max(high, leaf.getZ());
+	}
+	for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+	{
+		if (!tree.isNodeOccupied(*leaf)) continue;
+		// Blue, cyan, green, yellow, red: a quarter of the way each.
+		const double h = high > low ? 4 * (leaf.getZ() - low) / (high - low) : 0;
+		const auto part = [&](double centre, double flat)
+		{ return static_cast<uint8_t>(std::lround(255 * std::clamp(flat + 1 - std::abs(h - centre), 0.0, 1.0))); };
+		leaf->setColor(part(4, 1), part(2, 1), part(0, 1));
+	}
+	tree.updateInnerOccupancy();
+}
+
+template void writeOctree(std::ostream&, octomap::OcTree&, OctreeFormat);
+template void writeOctree(std::ostream&, octomap::ColorOcTree&, OctreeFormat);
+template void writeOccupiedPly(std::ostream&, const octomap::OcTree&);
+template void writeOccupiedPly(std::ostream&, const octomap::ColorOcTree&);
+template OccupancyImage projection(const octomap::OcTree&, double, double);
+template OccupancyImage projection(const octomap::ColorOcTree&, double, double);
+}  // namespace viwo
