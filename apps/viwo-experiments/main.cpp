@@ -29,10 +29,12 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("-j,--jobs", a.jobs, "Programs at a time")->check(CLI::Range(1, 256))->capture_default_str();
 	cli.add_option("-o,--output", a.folders.output, "Folder for tables, report and runs")->required();
 	cli.add_option("--cache", a.folders.cache, "Folder for simulated logs (0.2 GB a drive); default: <output>/cache");
-	cli.add_option("--programs", a.folders.programs, "Folder of viwo-sim and viwo-odometry")->check(CLI::ExistingDirectory);
+	cli.add_option("--programs", a.folders.programs, "Folder of viwo-sim, viwo-odometry and viwo-groundtruth")
+	    ->check(CLI::ExistingDirectory);
 	cli.footer(
 	    "Repeats the experiments of Niu et al. (Sec. 7) on simulated replicas of their six sequences. Writes table1, table2, table3 and\n"
-	    "ablations as .json, .md and .csv, and report.html. Logs and runs that are whole are kept and not made again.\n"
+	    "ablations as .json, .md and .csv, and report.html; table1_lidar, too, where viwo-groundtruth is there. Logs and runs that are "
+	    "whole are kept and not made again.\n"
 	    "Examples:\n"
 	    "  viwo-experiments -o paper\n"
 	    "  viwo-experiments --sequences seq05,seq06 --seeds 1 --tables 1 --jobs 2 -o quick\n"

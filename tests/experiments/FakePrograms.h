@@ -36,7 +36,11 @@ class FakePrograms
 		                       " \"${out%.rawlog}_ground_truth.tum\"\n");
 		script("viwo-odometry",
 		       output + "echo \"odometry $*\" >> " + calls() + "\nif [ -e " + folder_.file("fail") +
-		           " ]; then echo 'viwo-odometry: error: told to fail' >&2; exit 1; fi\ncp " + folder_.file("estimate.tum") +
+		           " ]; then echo 'viwo-odometry: error: told to fail' >&2; exit 1; fi\nif [ -e " + folder_.file("never") +
+		           " ] && case \"$*\" in *\"--mode $(cat " + folder_.file("never") +
+		           ")\"*) true;; *) false;; esac; then echo '{\"status\": \"initialising\", \"frames\": 751, \"first_pose_s\": null, "
+		           "\"initialization_time_s\": null}' > \"$out/summary.json\"; echo 'viwo-odometry: error: no pose' >&2; exit 1; fi\ncp " +
+		           folder_.file("estimate.tum") +
 		           " \"$out/trajectory.tum\"\necho '{\"first_pose_s\": 0.5, \"initialization_time_s\": 2.0, \"stages_ms\": {\"frame\": "
 		           "{\"median\": 20}}}' > \"$out/summary.json\"\n");
 	}
@@ -52,6 +56,15 @@ class FakePrograms
 		for (std::string line; std::getline(file, line);) n += line.find(part) != std::string::npos;
 		return n;
 	}
+	/** Adds a viwo-groundtruth, whose trajectory is the truth and whose map is two bytes. */
+	void addGroundTruth()
+	{
+		script("viwo-groundtruth", "for a; do [ \"$previous\" = -o ] && out=\"$a\"; previous=\"$a\"; done\necho \"groundtruth $*\" >> " +
+		                               calls() + "\ncp " + folder_.file("truth.tum") +
+		                               " \"$out/trajectory.tum\"\nprintf 'M!' > \"$out/map.png\"\n");
+	}
+	/** From now on no run of this mode finds a pose. */
+	void neverStart(const std::string& mode) { std::ofstream(folder_.file("never")) << mode; }
 	/** From now on (or no longer) every run fails. */
 	void fail(bool yes)
 	{

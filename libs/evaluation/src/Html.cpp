@@ -1,5 +1,8 @@
+#include <mrpt/system/string_utils.h>
 #include <viwo/core/Svg.h>
 #include <viwo/evaluation/Html.h>
+
+#include <algorithm>
 
 namespace viwo
 {
@@ -22,6 +25,7 @@ th { border-bottom: 2px solid var(--reference); vertical-align: bottom; white-sp
 td { border-bottom: 1px solid var(--grid); } .l { text-align: left; }
 tbody tr:hover { background: var(--band); } b { color: var(--c3); }
 figure { margin: 0.5rem 0 1rem; min-width: 0; } figure svg { max-width: 100%; min-width: 30rem; height: auto; display: block; }
+figure img { max-width: 100%; height: auto; display: block; background: #ffffff; }
 figcaption { color: var(--muted); font-size: 0.85rem; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 1rem; align-items: start; }
 details { margin: 1rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; background: var(--band); padding: 0.6rem; font-size: 0.8rem; }
@@ -54,6 +58,16 @@ void HtmlPage::figure(const std::string& svg, const std::string& caption)
 	const std::string tag = "<svg ";
 	if (picture.compare(0, tag.size(), tag) == 0) picture.insert(tag.size(), "role=\"img\" aria-label=\"" + escapedForXml(caption) + "\" ");
 	body_ += "<figure>\n<div class=\"scroll\" tabindex=\"0\">\n" + picture + "</div>\n<figcaption>" + escapedForXml(caption) +
+	         "</figcaption>\n</figure>\n";
+}
+
+void HtmlPage::image(const std::string& bytes, const std::string& type, const std::string& caption)
+{
+	std::string text;
+	mrpt::system::encodeBase64({bytes.begin(), bytes.end()}, text);
+	text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
+	const std::string said = escapedForXml(caption);
+	body_ += "<figure>\n<img alt=\"" + said + "\" src=\"data:" + type + ";base64," + text + "\">\n<figcaption>" + said +
 	         "</figcaption>\n</figure>\n";
 }
 

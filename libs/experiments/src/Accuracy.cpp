@@ -41,6 +41,7 @@ DriveErrors errorsOf(const Outcome& outcome, uint64_t seed)
 	DriveErrors errors;
 	errors.seed = seed;
 	errors.problem = outcome.error;
+	errors.failed = outcome.failed() && !outcome.no_pose;
 	errors.folder = outcome.folder;
 	errors.ground_truth = outcome.ground_truth;
 	if (outcome.failed()) return errors;

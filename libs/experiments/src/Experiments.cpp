@@ -2,6 +2,7 @@
 #include <viwo/core/Error.h>
 #include <viwo/experiments/Accuracy.h>
 #include <viwo/experiments/Experiments.h>
+#include <viwo/experiments/LidarTruth.h>
 #include <viwo/experiments/Starts.h>
 
 #include <filesystem>
@@ -48,12 +49,16 @@ Json withProvenance(const Provenance& provenance, const char* key, Json content)
 	return json;
 }
 
-std::vector<std::string> problemsOf(const std::vector<DriveResult>& drives, const std::vector<Start>& starts)
+std::vector<std::string> problemsOf(const std::vector<DriveResult>& drives, const std::vector<Start>& starts,
+                                    const std::vector<LidarDrive>& lidar)
 {
 	std::vector<std::string> problems;
+	for (const LidarDrive& drive : lidar)
+		if (!drive.problem.empty())
+			problems.push_back(drive.sequence + ", seed " + std::to_string(drive.seed) + ", ground truth: " + drive.problem);
 	for (const DriveResult& drive : drives)
 		for (const DriveErrors& e : drive.seeds)
-			if (!e.problem.empty())
+			if (e.failed)
 				problems.push_back(drive.sequence + ", seed " + std::to_string(e.seed) + ", " + drive.variant.name + ": " + e.problem);
 	for (const Start& start : starts)
 		for (const StartRun* run : {&start.ours, &start.vins})
@@ -71,19 +76,25 @@ ExperimentResult runExperiments(const Request& request, const ExperimentFolders&
 	const Provenance provenance = provenanceOf(request, folders.programs);
 	Runner runner(output, folders.programs);
 	if (!folders.cache.empty()) runner.keepLogsIn(fs::absolute(folders.cache).string());
-	runner.keepRuns(provenance.build);
+	runner.keepRuns(provenance.build, provenance.truth_build);
 	planDrives(runner, request);
+	if (provenance.has_truth) planLidarTruth(runner, request);
 	planStarts(runner, request);
 	runner.execute(jobs, hooks);
 
 	ExperimentResult result;
 	const std::vector<DriveResult> drives = driveResults(runner, request);
 	const std::vector<Start> all_starts = starts(runner, request);
-	result.problems = problemsOf(drives, all_starts);
+	std::vector<LidarDrive> lidar;
+	if (provenance.has_truth) lidar = lidarDrives(runner, request, drives);
+	result.problems = problemsOf(drives, all_starts, lidar);
 	Writer writer(output, result);
 	if (request.tables.count(1) != 0)
 		writer.write("table1", "Table 1: RMSE of the ATE, median over the seeds", table1(drives),
 		             withProvenance(provenance, "results", table1Json(drives)));
+	if (!lidar.empty())
+		writer.write("table1_lidar", "Table 1 against the ground truth from LiDAR, x-y", table1Lidar(lidar),
+		             withProvenance(provenance, "results", table1LidarJson(lidar)));
 	if (request.tables.count(2) != 0)
 		writer.write("table2", "Table 2: time to the start", table2(all_starts),
 		             withProvenance(provenance, "results", startsJson(all_starts)));
@@ -93,7 +104,7 @@ ExperimentResult runExperiments(const Request& request, const ExperimentFolders&
 	if (request.ablations)
 		writer.write("ablations", "Ablations: RMSE of the ATE x-y-z of viwo", ablationTable(drives),
 		             withProvenance(provenance, "results", table1Json(drives)));
-	writer.put("report.html", reportHtml(request, provenance, drives, all_starts));
+	writer.put("report.html", reportHtml(request, provenance, drives, lidar, all_starts));
 	return result;
 }
 }  // namespace viwo::experiments

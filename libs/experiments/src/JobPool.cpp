@@ -156,7 +156,7 @@ void JobPool::collect()
 		std::string error;
 		try
 		{
-			if (status != 0)
+			if (status != 0 && !(entry.job.tolerated && entry.job.tolerated()))
 				error = describe(status, entry.job.log_stem + ".err");
 			else if (entry.job.succeeded)
 				entry.job.succeeded();

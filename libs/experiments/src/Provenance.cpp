@@ -44,6 +44,17 @@ std::string buildOf(const std::string& programs)
 	return hashOf(hashes);
 }
 
+/** The ground truth's library is not one of this program's: it is looked for where a build and an installation have it. */
+std::string truthBuildOf(const std::string& programs, const std::string& build)
+{
+	const std::string program = programs + "/viwo-groundtruth";
+	if (!fs::exists(program) || !fs::is_directory(programs + "/../lib")) return {};
+	std::string hashes;
+	for (const auto& entry : fs::recursive_directory_iterator(programs + "/../lib", fs::directory_options::skip_permission_denied))
+		if (entry.path().filename() == "libviwo_groundtruth.so.0") hashes += " " + hashOf(readFile(entry.path().string()));
+	return hashes.empty() ? "" : hashOf(build + hashOf(readFile(program)) + hashes);
+}
+
 std::string now()
 {
 	const std::time_t time = std::time(nullptr);
@@ -71,7 +82,15 @@ Provenance provenanceOf(const Request& request, const std::string& programs)
 	for (const char* program : {"viwo-sim", "viwo-odometry"})
 		if (!fs::exists(programs + "/" + program))
 			throw Error(programs + "/" + program + ": not there; build it, or name its folder with --programs");
-	return {VIWO_VERSION, buildOf(programs), now(), request, defaultConfiguration()};
+	Provenance provenance;
+	provenance.version = VIWO_VERSION;
+	provenance.build = buildOf(programs);
+	provenance.truth_build = truthBuildOf(programs, provenance.build);
+	provenance.has_truth = fs::exists(programs + "/viwo-groundtruth");
+	provenance.date = now();
+	provenance.request = request;
+	provenance.configuration = defaultConfiguration();
+	return provenance;
 }
 
 Json toJson(const Provenance& provenance)

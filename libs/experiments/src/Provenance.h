@@ -12,7 +12,10 @@ struct Provenance
 {
 	std::string version;  //!< of viwo
 	std::string build;    //!< hash over the programs and libraries of viwo that ran
-	std::string date;     //!< UTC
+	/** The same of viwo-groundtruth; empty where its library cannot be found beside it. */
+	std::string truth_build;
+	bool has_truth = false;  //!< viwo-groundtruth is there
+	std::string date;        //!< UTC
 	Request request;
 	std::string configuration;  //!< of the estimator: the one set for all sequences, as an INI file
 };

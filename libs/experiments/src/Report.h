@@ -1,6 +1,6 @@
 #pragma once
 
-#include <viwo/experiments/Accuracy.h>
+#include <viwo/experiments/LidarTruth.h>
 #include <viwo/experiments/Starts.h>
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace viwo::experiments
 {
-/** All tables and figures in one page. Pictures of trajectories are those of the first seed. */
+/** All tables and figures in one page. @param lidar empty: without ground truth from LiDAR. Pictures of trajectories are those of the first
+ * seed. */
 std::string reportHtml(const Request& request, const Provenance& provenance, const std::vector<DriveResult>& drives,
-                       const std::vector<Start>& starts);
+                       const std::vector<LidarDrive>& lidar, const std::vector<Start>& starts);
 }  // namespace viwo::experiments

@@ -18,6 +18,9 @@ namespace
 namespace fs = std::filesystem;
 
 const std::string kConfigFolder = "config_files/viwo-odometry/";
+const std::string kTruthConfig = "config_files/viwo-groundtruth/lms100.ini";
+/** Seconds of computing of viwo-groundtruth for a log. */
+constexpr double kTruthCost_s = 10;
 
 void overrule(OdometryOptions& options, const std::string& word)
 {
@@ -41,6 +44,39 @@ void writeConfig(const RunRecipe& recipe, const std::string& path)
 	if (!recipe.config.empty()) options.load(findShare(kConfigFolder + recipe.config));
 	for (const std::string& word : recipe.overrides) overrule(options, word);
 	saveOptions(path, options.sections());
+}
+/** How a run ended that did its work and found no pose: the status of its estimator. Empty for any other. */
+std::string statusWithoutPose(const std::string& folder)
+{
+	if (!fs::exists(folder + "/summary.json")) return {};
+	const Json summary = loadJson(folder + "/summary.json");
+	const std::string status = summary.value("status", "failed");
+	const bool whole = status != "failed" && !summary.value("interrupted", false);
+	if (!whole || !summary.at("first_pose_s").is_null()) return {};
+	return status + " after " + std::to_string(summary.at("frames").get<int>()) + " frames";
+}
+/** A job that fills a folder, and has nothing to do where that is whole and of the same content.
+ *  @param content empty: nothing is kept. @param begun called with the empty folder; may be empty. */
+Job folderJob(const std::string& folder, const std::string& content, const std::function<void()>& begun = {})
+{
+	const std::string inputs = folder + "/inputs.txt";
+	Job job;
+	job.prepare = [=]
+	{
+		if (!content.empty() && fs::exists(inputs) && readFile(inputs) == content) return false;
+		fs::remove_all(folder);
+		fs::create_directories(folder);
+		if (begun) begun();
+		return true;
+	};
+	job.log_stem = folder + "/program";
+	if (!content.empty()) job.succeeded = [=] { writeAtomically(inputs, content); };
+	return job;
+}
+
+std::string contentOf(const LogRecipe& log)
+{
+	return "---- log\n" + log.program + "\n" + log.content;
 }
 }  // namespace
 
@@ -87,35 +123,47 @@ std::string Runner::contentOf(const RunRecipe& recipe) const
 	                   std::to_string(recipe.to_s) + "\nconfiguration " + recipe.config + "\n";
 	if (!recipe.config.empty()) text += readFile(findShare(kConfigFolder + recipe.config));
 	for (const std::string& word : recipe.overrides) text += word + "\n";
-	return text + "---- log\n" + recipe.log.program + "\n" + recipe.log.content;
+	return text + experiments::contentOf(recipe.log);
 }
 
 Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
 {
-	const std::string folder = folderOf(recipe), config = folder + "/given.ini", inputs = folder + "/inputs.txt";
-	const bool needs_config = !recipe.config.empty() || !recipe.overrides.empty(), keep = !program_.empty();
-	const std::string content = keep ? contentOf(recipe) : "";
-	Job job;
+	const std::string folder = folderOf(recipe), config = folder + "/given.ini";
+	const bool needs_config = !recipe.config.empty() || !recipe.overrides.empty();
+	const auto begun = [=]
+	{
+		if (needs_config) writeConfig(recipe, config);
+	};
+	Job job = folderJob(folder, program_.empty() ? "" : contentOf(recipe), begun);
 	job.label = "run " + recipe.name();
 	job.after = {log_job};
-	job.prepare = [=]
-	{
-		if (keep && fs::exists(inputs) && readFile(inputs) == content) return false;
-		fs::remove_all(folder);
-		fs::create_directories(folder);
-		if (needs_config) writeConfig(recipe, config);
-		return true;
-	};
 	job.command = {programs_ + "/viwo-odometry", "-i", cache_.rawlog(recipe.log), "-o", folder, "--mode", recipe.mode};
 	if (needs_config) job.command.insert(job.command.end(), {"-c", config});
 	if (recipe.from_s > 0) job.command.insert(job.command.end(), {"--from", std::to_string(recipe.from_s)});
 	if (recipe.to_s > 0) job.command.insert(job.command.end(), {"--to", std::to_string(recipe.to_s)});
-	job.log_stem = folder + "/program";
-	if (keep) job.succeeded = [=] { writeAtomically(inputs, content); };
+	job.tolerated = [=] { return !statusWithoutPose(folder).empty(); };
 	job.alone = recipe.alone || recipe.loaded;
 	job.loaded = recipe.loaded;
 	job.cost_s = recipe.cost_s;
 	return job;
+}
+
+void Runner::wantTruth(const LogRecipe& log)
+{
+	if (truths_.count(log.name) != 0) return;
+	const std::string folder = truthFolderOf(log), config = findShare(kTruthConfig);
+	const std::string content = "program " + truth_program_ + "\n---- configuration\n" + readFile(config) + experiments::contentOf(log);
+	Job job = folderJob(folder, truth_program_.empty() ? "" : content);
+	job.label = "ground truth of " + log.name;
+	job.after = {logJob(log)};
+	job.command = {programs_ + "/viwo-groundtruth", "-i", cache_.rawlog(log), "-o", folder, "-c", config};
+	job.cost_s = kTruthCost_s;
+	truths_[log.name] = pool_.add(std::move(job));
+}
+
+Outcome Runner::truthOutcome(const LogRecipe& log) const
+{
+	return {pool_.error(truths_.at(log.name)), truthFolderOf(log), cache_.groundTruth(log)};
 }
 
 void Runner::execute(size_t parallel, const JobHooks& hooks)
@@ -125,6 +173,13 @@ void Runner::execute(size_t parallel, const JobHooks& hooks)
 
 Outcome Runner::outcome(const RunRecipe& recipe) const
 {
-	return {pool_.error(runs_.at(recipe.name())), folderOf(recipe), cache_.groundTruth(recipe.log)};
+	Outcome outcome{pool_.error(runs_.at(recipe.name())), folderOf(recipe), cache_.groundTruth(recipe.log)};
+	if (outcome.failed()) return outcome;
+	if (const std::string status = statusWithoutPose(outcome.folder); !status.empty())
+	{
+		outcome.no_pose = true;
+		outcome.error = "no pose: the estimator is still " + status;
+	}
+	return outcome;
 }
 }  // namespace viwo::experiments

@@ -70,7 +70,7 @@ struct Read
 
 	explicit Read(const Outcome& outcome)
 	{
-		run.problem = outcome.error;
+		run.problem = outcome.no_pose ? "" : outcome.error;
 		run.first_pose_s = run.aligned_s = run.rmse_m = run.scale = kNever;
 		if (outcome.failed()) return;
 		const Json summary = outcome.summary();

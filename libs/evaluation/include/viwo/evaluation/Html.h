@@ -18,6 +18,8 @@ class HtmlPage
 	void table(const Table& table, const std::string& caption);
 	/** SVG text in the page's colours (PlotColours::page), with a description for who cannot see it. */
 	void figure(const std::string& svg, const std::string& caption);
+	/** A picture, inside of the page. @param bytes of its file. @param type e.g. "image/png". */
+	void image(const std::string& bytes, const std::string& type, const std::string& caption);
 	/** Figures after this stand side by side where there is room, until the next endRow(). */
 	void beginRow();
 	void endRow();

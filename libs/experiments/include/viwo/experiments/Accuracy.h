@@ -29,6 +29,7 @@ struct DriveErrors
 {
 	uint64_t seed = 0;
 	std::string problem;  //!< why there are no figures; empty: there are
+	bool failed = false;  //!< the program itself, not the estimator
 	TrajectoryErrors se3, yaw;
 	std::string folder;        //!< of the run
 	std::string ground_truth;  //!< path

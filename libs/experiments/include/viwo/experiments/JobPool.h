@@ -15,7 +15,9 @@ struct Job
 	std::function<bool()> prepare;
 	std::vector<std::string> command;  //!< program and arguments
 	std::string log_stem;              //!< its output goes to <log_stem>.out and .err
-	/** Called when the program has ended with status 0. */
+	/** Called when the program has ended with another status than 0. @return true when it did its work all the same. May be empty. */
+	std::function<bool()> tolerated;
+	/** Called when the program has done its work. */
 	std::function<void()> succeeded;
 	bool alone = false;   //!< nothing else runs beside it
 	bool loaded = false;  //!< alone, while every other core is kept busy

@@ -16,9 +16,10 @@ namespace viwo::experiments
 /** What a run of viwo-odometry left behind. */
 struct Outcome
 {
-	std::string error;  //!< one line; empty when the program ended with status 0
+	std::string error;  //!< one line; empty when there is a trajectory
 	std::string folder;
 	std::string ground_truth;
+	bool no_pose = false;  //!< the program came to the end of the log, but the estimator did not start; `error` says so
 
 	bool failed() const { return !error.empty(); }
 	std::string file(const std::string& name) const { return folder + "/" + name; }
@@ -41,17 +42,27 @@ class Runner
 	void keepLogsIn(const std::string& folder) { cache_ = SimulationCache(folder, programs_); }
 
 	/** Runs that are whole are not done again while their log, configuration and program are the same.
-	 *  @param program tells one build of viwo-odometry from another. */
-	void keepRuns(const std::string& program) { program_ = program; }
+	 *  @param program tells one build of viwo-odometry from another. @param truth_program the same of viwo-groundtruth; empty: those are
+	 * not kept. */
+	void keepRuns(const std::string& program, const std::string& truth_program)
+	{
+		program_ = program;
+		truth_program_ = truth_program;
+	}
 
 	/** Asks for a run; one that was asked for before is done once. */
 	void want(const RunRecipe& recipe);
+
+	/** Asks for the trajectory and the map that viwo-groundtruth makes of a log's scans. */
+	void wantTruth(const LogRecipe& log);
 
 	/** @throws Error when interrupted. */
 	void execute(size_t parallel, const JobHooks& hooks);
 
 	/** @pre wanted and executed. */
 	Outcome outcome(const RunRecipe& recipe) const;
+	/** Of wantTruth(); `ground_truth` is the simulator's. */
+	Outcome truthOutcome(const LogRecipe& log) const;
 
    private:
 	/** Index of the job that makes the log; added on the first call. */
@@ -59,12 +70,14 @@ class Runner
 	Job runJob(const RunRecipe& recipe, size_t log_job) const;
 	std::string contentOf(const RunRecipe& recipe) const;
 	std::string folderOf(const RunRecipe& recipe) const { return folder_ + "/runs/" + recipe.name(); }
+	std::string truthFolderOf(const LogRecipe& log) const { return folder_ + "/truth/" + log.name; }
 
 	std::string folder_, programs_;
-	std::string program_;  //!< empty: every run is done
+	std::string program_, truth_program_;  //!< empty: every run is done
 	SimulationCache cache_;
 	JobPool pool_;
-	std::map<std::string, size_t> logs_;  //!< jobs by the path of the log
-	std::map<std::string, size_t> runs_;  //!< jobs by the name of the run
+	std::map<std::string, size_t> logs_;    //!< jobs by the path of the log
+	std::map<std::string, size_t> runs_;    //!< jobs by the name of the run
+	std::map<std::string, size_t> truths_;  //!< jobs by the name of the log
 };
 }  // namespace viwo::experiments
