@@ -14,6 +14,7 @@ struct Arguments
 {
 	std::string sequences, seeds = "1-5", tables = "1,2,3";
 	experiments::ExperimentFolders folders;
+	std::string error_budget;
 	bool ablations = false;
 	size_t jobs = std::max(1U, std::thread::hardware_concurrency());
 };
@@ -23,9 +24,11 @@ void declare(CLI::App& cli, Arguments& a)
 	a.folders.programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
 	cli.add_option("--sequences", a.sequences, "Of the paper's six, e.g. seq01,seq05; without it all");
 	cli.add_option("--seeds", a.seeds, "Seeds of each sequence: numbers and ranges, e.g. 1-5 or 1,2,7")->capture_default_str();
-	cli.add_option("--tables", a.tables, "1: accuracy of whole drives; 2: time to start; 3: accuracy after the start")
+	cli.add_option("--tables", a.tables, "1: accuracy of whole drives; 2: time to start; 3: accuracy after the start; or none")
 	    ->capture_default_str();
 	cli.add_flag("--ablations", a.ablations, "Also switch the parts of the estimator off one by one (five more runs of each drive)");
+	cli.add_option("--error-budget", a.error_budget,
+	               "Also tell what each source of error costs: sequences, e.g. seq01,seq05 (26 runs of each)");
 	cli.add_option("-j,--jobs", a.jobs, "Programs at a time")->check(CLI::Range(1, 256))->capture_default_str();
 	cli.add_option("-o,--output", a.folders.output, "Folder for tables, report and runs")->required();
 	cli.add_option("--cache", a.folders.cache, "Folder for simulated logs (0.2 GB a drive); default: <output>/cache");
@@ -39,6 +42,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    "  viwo-experiments -o paper\n"
 	    "  viwo-experiments --sequences seq05,seq06 --seeds 1 --tables 1 --jobs 2 -o quick\n"
 	    "  viwo-experiments --seeds 6 --ablations -o unseen\n"
+	    "  viwo-experiments --seeds 1 --tables none --error-budget seq01,seq05 -o budget\n"
 	    "Exit status: 0 done, 1 failed, interrupted or a run failed, 2 bad usage.");
 }
 
@@ -51,6 +55,7 @@ experiments::Request requestOf(const Arguments& a)
 		request.seeds = experiments::parseSeeds(a.seeds);
 		request.tables = experiments::parseTables(a.tables);
 		request.ablations = a.ablations;
+		if (!a.error_budget.empty()) request.error_budget = experiments::parseSequences(a.error_budget);
 		return request;
 	}
 	catch (const Error& e)

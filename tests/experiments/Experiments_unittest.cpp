@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <viwo/core/Error.h>
 #include <viwo/evaluation/Json.h>
+#include <viwo/experiments/ErrorBudget.h>
 #include <viwo/experiments/Experiments.h>
+#include <viwo/sim/Rig.h>
 
 #include "FakePrograms.h"
 
@@ -28,7 +30,7 @@ class Experiments : public ::testing::Test
 TEST_F(Experiments, EveryRunIsDoneOnceAndKept)
 {
 	EXPECT_TRUE(run().problems.empty());
-	EXPECT_EQ(programs_.count("sim"), 4) << "two sequences, two seeds";
+	EXPECT_EQ(programs_.count("sim --"), 4) << "two sequences, two seeds";
 	EXPECT_EQ(programs_.count("odometry"), 4 * 3 + 2 * (6 + 5) * 2) << "three modes of each drive, two methods of each start";
 	EXPECT_EQ(programs_.count("--mode wheel"), 4);
 	EXPECT_EQ(programs_.count("--from 60.000000 --to 105.000000"), 8);
@@ -51,7 +53,7 @@ TEST_F(Experiments, GoOnAfterAnInterruption)
 	EXPECT_THROW(run(hooks), Error);
 	EXPECT_FALSE(std::filesystem::exists(out_.file("table1.json")));
 	EXPECT_TRUE(run().problems.empty());
-	EXPECT_LE(programs_.count("sim"), 4 + 2) << "at most what was running is done again";
+	EXPECT_LE(programs_.count("sim --"), 4 + 2) << "at most what was running is done again";
 	EXPECT_LE(programs_.count("odometry"), 12 + 2);
 	EXPECT_TRUE(std::filesystem::exists(out_.file("table1.json")));
 }
@@ -135,6 +137,39 @@ TEST_F(Experiments, GroundTruthFromLidarStandsBesideTheExactOne)
 	EXPECT_NE(html.find("src=\"data:image/png;base64,TSE=\""), std::string::npos) << "the map stands in the page";
 }
 
+TEST_F(Experiments, ErrorBudgetSwitchesEachSourceOffAndOn)
+{
+	request_.tables = {};
+	request_.seeds = {1};
+	request_.error_budget = {"seq05"};
+	EXPECT_TRUE(run().problems.empty());
+	const Json budget = loadJson(out_.file("error_budget.json")).at("results").at(0);
+	const size_t sources = budget.at("sources").size();
+	EXPECT_GE(sources, 10u);
+	EXPECT_EQ(programs_.count("odometry"), 2 + 2 * static_cast<int>(sources)) << "all, none, and each source alone and left out";
+	for (const Json& source : budget.at("sources")) EXPECT_GT(source.at("alone_ate_xyz_m").get<double>(), 0);
+	EXPECT_EQ(programs_.count("sim --"), 2 + 2 * static_cast<int>(sources));
+	EXPECT_GE(programs_.count("--images-from"), 16) << "what the camera does not notice is not rendered again";
+	EXPECT_NE(viwo::testing::readFile(out_.file("report.html")).find("Error budget"), std::string::npos);
+}
+
+/** The words that switch the sources off are options of the rig, and leave nothing on. */
+TEST(ErrorBudget, SourcesAreOptionsOfTheRig)
+{
+	std::vector<std::string> words;
+	for (const ErrorSource& source : errorSources()) words.insert(words.end(), source.off.begin(), source.off.end());
+	const SimulatedDrive drive = sequenceDrive("seq01");
+	sim::Rig rig;
+	sim::Route route;
+	sim::loadRun(drive.rigPath(), drive.routePath(), words, rig, route);
+	EXPECT_EQ(rig.imu.gyro_noise_rad_s_sqrtHz, 0);
+	EXPECT_EQ(rig.wheels.track_error, 0);
+	EXPECT_FALSE(rig.wheels.tick_quantisation);
+	EXPECT_TRUE(rig.wheels.slips.empty());
+	EXPECT_EQ(rig.floor.height_rms_mm, 0);
+	EXPECT_EQ(rig.camera.pose_error, std::vector<double>(6, 0));
+}
+
 /** One page: nothing from elsewhere, no script, and all tags closed. */
 TEST_F(Experiments, ReportStandsAlone)
 {
@@ -173,7 +208,7 @@ TEST_F(Experiments, OtherBuildsAreMeasuredAnew)
 	std::ofstream(programs_.folder() + "/viwo-odometry", std::ios::app) << "# another build\n";
 	run();
 	EXPECT_EQ(programs_.count("odometry"), 6);
-	EXPECT_EQ(programs_.count("sim"), 1) << "the log does not depend on the estimator";
+	EXPECT_EQ(programs_.count("sim --"), 1) << "the log does not depend on the estimator";
 }
 }  // namespace
 }  // namespace viwo::experiments

@@ -32,7 +32,7 @@ class FakePrograms
 		truth.saveTum(folder_.file("truth.tum"));
 		estimate.saveTum(folder_.file("estimate.tum"));
 		const std::string output = "for a; do [ \"$previous\" = -o ] && out=\"$a\"; previous=\"$a\"; done\n";
-		script("viwo-sim", output + "echo sim >> " + calls() + "\necho log > \"$out\"\ncp " + folder_.file("truth.tum") +
+		script("viwo-sim", output + "echo \"sim $*\" >> " + calls() + "\necho log > \"$out\"\ncp " + folder_.file("truth.tum") +
 		                       " \"${out%.rawlog}_ground_truth.tum\"\n");
 		script("viwo-odometry",
 		       output + "echo \"odometry $*\" >> " + calls() + "\nif [ -e " + folder_.file("fail") +

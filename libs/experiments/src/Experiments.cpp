@@ -1,6 +1,7 @@
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/experiments/Accuracy.h>
+#include <viwo/experiments/ErrorBudget.h>
 #include <viwo/experiments/Experiments.h>
 #include <viwo/experiments/LidarTruth.h>
 #include <viwo/experiments/Starts.h>
@@ -80,6 +81,7 @@ ExperimentResult runExperiments(const Request& request, const ExperimentFolders&
 	planDrives(runner, request);
 	if (provenance.has_truth) planLidarTruth(runner, request);
 	planStarts(runner, request);
+	planErrorBudget(runner, request);
 	runner.execute(jobs, hooks);
 
 	ExperimentResult result;
@@ -104,7 +106,12 @@ ExperimentResult runExperiments(const Request& request, const ExperimentFolders&
 	if (request.ablations)
 		writer.write("ablations", "Ablations: RMSE of the ATE x-y-z of viwo", ablationTable(drives),
 		             withProvenance(provenance, "results", table1Json(drives)));
-	writer.put("report.html", reportHtml(request, provenance, drives, lidar, all_starts));
+	const std::vector<ErrorBudget> budgets = errorBudgets(runner, request);
+	for (const ErrorBudget& budget : budgets) result.problems.insert(result.problems.end(), budget.problems.begin(), budget.problems.end());
+	if (!budgets.empty())
+		writer.write("error_budget", "Error budget: RMSE of the ATE x-y-z of viwo", errorBudgetTable(budgets),
+		             withProvenance(provenance, "results", errorBudgetJson(budgets)));
+	writer.put("report.html", reportHtml({request, provenance, drives, lidar, all_starts, budgets}));
 	return result;
 }
 }  // namespace viwo::experiments

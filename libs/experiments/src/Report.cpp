@@ -173,31 +173,38 @@ void addStages(HtmlPage& page, const std::vector<DriveResult>& drives)
 }
 }  // namespace
 
-std::string reportHtml(const Request& request, const Provenance& provenance, const std::vector<DriveResult>& drives,
-                       const std::vector<LidarDrive>& lidar, const std::vector<Start>& starts)
+std::string reportHtml(const Findings& f)
 {
 	HtmlPage page("Visual-inertial-wheel odometry: the paper's experiments");
-	introduce(page, request, provenance);
-	if (request.tables.count(1) != 0) addTable1(page, drives);
-	if (!lidar.empty()) addLidar(page, request, lidar);
-	if (!starts.empty()) addStarts(page, request, starts);
-	if (request.ablations)
+	const bool with_table1 = f.request.tables.count(1) != 0;
+	introduce(page, f.request, f.provenance);
+	if (with_table1) addTable1(page, f.drives);
+	if (!f.lidar.empty()) addLidar(page, f.request, f.lidar);
+	if (!f.starts.empty()) addStarts(page, f.request, f.starts);
+	if (f.request.ablations)
 	{
 		page.heading("Ablations");
-		page.table(ablationTable(drives), "RMSE of the ATE x-y-z in metres: viwo, and viwo with one part switched off.");
+		page.table(ablationTable(f.drives), "RMSE of the ATE x-y-z in metres: viwo, and viwo with one part switched off.");
 	}
-	if (request.tables.count(1) != 0)
+	if (!f.budgets.empty())
 	{
-		addFigure6(page, request, drives);
-		addStages(page, drives);
+		page.heading("Error budget");
+		page.table(errorBudgetTable(f.budgets),
+		           "RMSE of the ATE x-y-z of viwo in centimetres, of drives that are simulated with one source of error alone, and with all "
+		           "others.");
 	}
-	if (!drives.empty())
+	if (with_table1)
+	{
+		addFigure6(page, f.request, f.drives);
+		addStages(page, f.drives);
+	}
+	if (!f.drives.empty())
 	{
 		page.heading("Every run");
-		page.table(table1Runs(drives), "RMSE of the ATE of each run in metres.");
+		page.table(table1Runs(f.drives), "RMSE of the ATE of each run in metres.");
 	}
-	if (!starts.empty()) page.table(startRuns(starts), "Each start.");
-	page.details("Configuration of the estimator", provenance.configuration);
+	if (!f.starts.empty()) page.table(startRuns(f.starts), "Each start.");
+	page.details("Configuration of the estimator", f.provenance.configuration);
 	return page.toString();
 }
 }  // namespace viwo::experiments

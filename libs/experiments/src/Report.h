@@ -1,16 +1,27 @@
 #pragma once
 
+#include <viwo/experiments/ErrorBudget.h>
 #include <viwo/experiments/LidarTruth.h>
 #include <viwo/experiments/Starts.h>
 
 #include <string>
+#include <vector>
 
 #include "Provenance.h"
 
 namespace viwo::experiments
 {
-/** All tables and figures in one page. @param lidar empty: without ground truth from LiDAR. Pictures of trajectories are those of the first
- * seed. */
-std::string reportHtml(const Request& request, const Provenance& provenance, const std::vector<DriveResult>& drives,
-                       const std::vector<LidarDrive>& lidar, const std::vector<Start>& starts);
+/** All that was measured. */
+struct Findings
+{
+	Request request;
+	Provenance provenance;
+	std::vector<DriveResult> drives;
+	std::vector<LidarDrive> lidar;  //!< empty: without ground truth from LiDAR
+	std::vector<Start> starts;
+	std::vector<ErrorBudget> budgets;
+};
+
+/** All tables and figures in one page. Pictures of trajectories are those of the first seed. */
+std::string reportHtml(const Findings& f);
 }  // namespace viwo::experiments

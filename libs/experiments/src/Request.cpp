@@ -14,9 +14,6 @@ namespace viwo::experiments
 {
 namespace
 {
-/** Seconds of computing a second of a log: for the time that is left, which measures the machine itself. */
-constexpr double kRenderingCost = 0.6;
-
 std::vector<std::string> words(const std::string& text)
 {
 	std::vector<std::string> list;
@@ -33,7 +30,9 @@ uint64_t seedOf(const std::string& word, const std::string& text)
 	return std::stoull(word);
 }
 
-SimulatedDrive driveOf(const std::string& sequence)
+}  // namespace
+
+SimulatedDrive sequenceDrive(const std::string& sequence)
 {
 	const sim::Sequence files = sim::Sequence::load(findShare("sequences/" + sequence + ".ini"));
 	SimulatedDrive drive;
@@ -43,7 +42,6 @@ SimulatedDrive driveOf(const std::string& sequence)
 	drive.rig = files.rig;
 	return drive;
 }
-}  // namespace
 
 std::vector<uint64_t> parseSeeds(const std::string& text)
 {
@@ -74,9 +72,11 @@ std::vector<std::string> parseSequences(const std::string& text)
 std::set<int> parseTables(const std::string& text)
 {
 	std::set<int> tables;
+	if (text == "none") return tables;
 	for (const std::string& word : words(text))
 	{
-		if (word != "1" && word != "2" && word != "3") throw Error("tables '" + text + "': expected 1, 2 and 3, separated by commas");
+		if (word != "1" && word != "2" && word != "3")
+			throw Error("tables '" + text + "': expected 1, 2 and 3, separated by commas, or none");
 		tables.insert(word[0] - '0');
 	}
 	if (tables.empty()) throw Error("tables: none given; e.g. 1,2,3");
@@ -85,14 +85,14 @@ std::set<int> parseTables(const std::string& text)
 
 LogRecipe sequenceLog(const std::string& sequence, uint64_t seed)
 {
-	LogRecipe recipe = driveOf(sequence).log(seed);
+	LogRecipe recipe = sequenceDrive(sequence).log(seed);
 	recipe.cost_s = kRenderingCost * sequenceDuration_s(sequence);
 	return recipe;
 }
 
 double sequenceDuration_s(const std::string& sequence)
 {
-	const SimulatedDrive drive = driveOf(sequence);
+	const SimulatedDrive drive = sequenceDrive(sequence);
 	sim::Rig rig;
 	sim::Route route;
 	sim::loadRun(drive.rigPath(), drive.routePath(), {}, rig, route);

@@ -17,6 +17,7 @@ struct Request
 	std::vector<uint64_t> seeds = {1, 2, 3, 4, 5};
 	std::set<int> tables = {1, 2, 3};
 	bool ablations = false;
+	std::vector<std::string> error_budget;  //!< sequences of which each source of error is switched off and on
 };
 
 /** "1-3,7" -> 1 2 3 7. @throws Error that quotes what cannot be read. */
@@ -25,10 +26,16 @@ std::vector<uint64_t> parseSeeds(const std::string& text);
 /** "seq01,seq05", in the paper's order; empty: all six. @throws Error for a name that is none of them. */
 std::vector<std::string> parseSequences(const std::string& text);
 
-/** "1,3". @throws Error for a table that is not 1, 2 or 3. */
+/** "1,3", or "none". @throws Error for a table that is not 1, 2 or 3. */
 std::set<int> parseTables(const std::string& text);
 
-/** The log of a sequence. */
+/** Seconds of computing an image second of a log: for the time that is left, which measures the machine itself. */
+constexpr double kRenderingCost = 0.6;
+
+/** The drive of a sequence. */
+SimulatedDrive sequenceDrive(const std::string& sequence);
+
+/** Its log. */
 LogRecipe sequenceLog(const std::string& sequence, uint64_t seed);
 
 /** How long the sequence is driven, s. */
