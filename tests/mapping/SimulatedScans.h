@@ -19,7 +19,7 @@ struct SimulatedScans
 	std::vector<Eigen::Vector3d> true_hits;  //!< where the beams that came back met their surfaces, without any error; W, m
 
 	SimulatedScans(const TempFolder& folder, const std::string& world_name, const std::string& route_name, double systematic_mm)
-		: world(sim::World::load(shared("worlds/" + world_name))), rawlog(folder.file("x.rawlog")), ground_truth(folder.file("x.tum"))
+	    : world(sim::World::load(shared("worlds/" + world_name))), rawlog(folder.file("x.rawlog")), ground_truth(folder.file("x.tum"))
 	{
 		sim::Rig rig;
 		sim::Route route;

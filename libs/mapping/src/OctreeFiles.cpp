@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <sstream>
 
 namespace viwo
@@ -59,6 +59,50 @@ void visitLayers(const Tree& tree, int first, int last, const Visit& visit)
 	}
 }
 
+// liboctomap's own functions for whole files print remarks on stderr, so the headers are written and read here.
+constexpr const char* kHeaders[] = {"# Octomap OcTree file", "# Octomap OcTree binary file"};
+
+struct OctreeHeader
+{
+	OctreeFormat format = OctreeFormat::ot;
+	std::string id;
+	double resolution_m = 0;
+};
+
+/** Up to the data. Nothing where it is no such file. */
+std::optional<OctreeHeader> readHeader(std::istream& file)
+{
+	std::string line;
+	if (!std::getline(file, line)) return std::nullopt;
+	OctreeHeader header;
+	if (line.rfind(kHeaders[1], 0) == 0)
+		header.format = OctreeFormat::bt;
+	else if (line.rfind(kHeaders[0], 0) != 0)
+		return std::nullopt;
+	while (std::getline(file, line))
+	{
+		std::istringstream words(line);
+		std::string word;
+		words >> word;
+		if (word == "id") words >> header.id;
+		if (word == "res") words >> header.resolution_m;
+		if (word == "data") return header.resolution_m > 0 ? std::optional(header) : std::nullopt;
+	}
+	return std::nullopt;
+}
+
+template <class Tree>
+std::optional<OccupancyImage> readProjection(std::istream& file, const OctreeHeader& header, double min_z_m, double max_z_m)
+{
+	Tree tree(header.resolution_m);
+	if (header.format == OctreeFormat::bt)
+		tree.readBinaryData(file);
+	else
+		tree.readData(file);
+	if (!file) return std::nullopt;
+	return projection(tree, min_z_m, max_z_m);
+}
+
 int layerOf(double layers)
 {
 	return static_cast<int>(std::clamp(std::floor(layers), -1.0 * kCentreKey, kCentreKey - 1.0));
@@ -76,13 +120,18 @@ OctreeFormat octreeFormatOf(const std::string& path)
 template <class Tree>
 void writeOctree(std::ostream& out, Tree& tree, OctreeFormat format)
 {
-	// Through memory: liboctomap prints warnings of its own about a stream that fails.
-	std::ostringstream bytes;
-	if (format == OctreeFormat::ot)
-		tree.write(bytes);
+	if (format == OctreeFormat::bt)
+	{
+		tree.toMaxLikelihood();
+		tree.prune();
+	}
+	out << kHeaders[format == OctreeFormat::bt ? 1 : 0]
+	    << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid " << tree.getTreeType() << "\nsize "
+	    << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+	if (format == OctreeFormat::bt)
+		tree.writeBinaryData(out);
 	else
-		tree.writeBinary(bytes);
-	out << bytes.str();
+		tree.writeData(out);
 }
 
 template <class Tree>
@@ -153,23 +202,18 @@ OccupancyImage loadProjection(const std::string& path, double min_z_m, double ma
 {
 	std::ifstream file(path, std::ios::binary);
 	if (!file) throw Error(path + ": cannot read this octree; check its name");
-	std::unique_ptr<octomap::AbstractOcTree> tree;
-	if (octreeFormatOf(path) == OctreeFormat::bt)
-	{
-		auto binary = std::make_unique<octomap::OcTree>(0.1);
-		if (binary->readBinary(file)) tree = std::move(binary);
-	}
-	else
-		tree.reset(octomap::AbstractOcTree::read(file));
+	std::optional<OccupancyImage> image;
 	try
 	{
-		if (const auto* plain = dynamic_cast<octomap::OcTree*>(tree.get())) return projection(*plain, min_z_m, max_z_m);
-		if (const auto* coloured = dynamic_cast<octomap::ColorOcTree*>(tree.get())) return projection(*coloured, min_z_m, max_z_m);
+		const std::optional<OctreeHeader> header = readHeader(file);
+		if (header && header->id == "OcTree") image = readProjection<octomap::OcTree>(file, *header, min_z_m, max_z_m);
+		if (header && header->id == "ColorOcTree") image = readProjection<octomap::ColorOcTree>(file, *header, min_z_m, max_z_m);
 	}
 	catch (const Error& e)
 	{
 		throw Error(path + ": " + e.what());
 	}
+	if (image) return *image;
 	throw Error(path + ": not an OctoMap file (OcTree or ColorOcTree), or damaged");
 }
 
