@@ -17,7 +17,7 @@ constexpr int kLongSide_px = 900, kShortestSide_px = 260;
 constexpr int kLeft_px = 60, kRight_px = 20, kTop_px = 36, kAxis_px = 44, kLegendLine_px = 20;
 constexpr int kGridLines = 10;
 constexpr double kSwatch_px = 24, kCharacter_px = 8.5;
-constexpr PlotColour kInk{32, 33, 36}, kMuted{95, 99, 104}, kGrid{200, 205, 212}, kPaper{255, 255, 255};
+constexpr PlotColour kInk{32, 33, 36}, kMuted{95, 99, 104}, kGrid{178, 184, 194}, kPaper{255, 255, 255};
 
 /** Where metres fall on the paper. Cells of a map cover whole pixels. */
 class Paper

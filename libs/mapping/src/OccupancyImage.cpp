@@ -1,8 +1,13 @@
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/Error.h>
 #include <viwo/mapping/OccupancyImage.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
 
 namespace viwo
 {
@@ -45,5 +50,79 @@ void saveMapServer(const std::string& yaml_path, const OccupancyImage& image)
 	yaml.stream() << "image: " << pgm_path.filename().string() << "\n" << text;
 	pgm.commit();
 	yaml.commit();
+}
+
+namespace
+{
+/** `key: value` lines; enough for what map_server reads. */
+std::map<std::string, std::string> readKeys(const std::string& path)
+{
+	std::ifstream file(path);
+	if (!file) throw Error(path + ": cannot read this map; check its name");
+	std::map<std::string, std::string> keys;
+	for (std::string line; std::getline(file, line);)
+	{
+		const size_t colon = line.find(':');
+		if (colon == std::string::npos || line[0] == '#') continue;
+		std::string value = line.substr(colon + 1, line.find(" #") - colon - 1);
+		for (char& c : value)
+			if (c == '[' || c == ']' || c == ',' || c == '"' || c == '\r') c = ' ';
+		keys[line.substr(0, colon)] = value;
+	}
+	return keys;
+}
+
+std::vector<double> numbers(const std::map<std::string, std::string>& keys, const std::string& key, size_t count, const std::string& path)
+{
+	const auto at = keys.find(key);
+	std::vector<double> values;
+	if (at != keys.end())
+	{
+		std::istringstream words(at->second);
+		for (double value = 0; words >> value;) values.push_back(value);
+	}
+	if (values.size() != count) throw Error(path + ": key '" + key + "' must have " + std::to_string(count) + " number(s)");
+	return values;
+}
+
+void readPgm(const std::string& path, OccupancyImage& image)
+{
+	std::ifstream file(path, std::ios::binary);
+	if (!file) throw Error(path + ": cannot read the map's image");
+	std::string magic;
+	file >> magic;
+	while ((file >> std::ws).peek() == '#') file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+	int most = 0;
+	file >> image.columns >> image.rows >> most;
+	if (!file || magic != "P5" || image.columns <= 0 || image.rows <= 0 || most != 255) throw Error(path + ": not a binary PGM of 8 bits");
+	file.get();
+	image.cells.resize(static_cast<size_t>(image.columns) * static_cast<size_t>(image.rows));
+	if (!file.read(reinterpret_cast<char*>(image.cells.data()), static_cast<std::streamsize>(image.cells.size())))
+		throw Error(path + ": the image ends too early");
+}
+}  // namespace
+
+OccupancyImage loadMapServer(const std::string& yaml_path)
+{
+	const auto keys = readKeys(yaml_path);
+	OccupancyImage image;
+	image.resolution_m = numbers(keys, "resolution", 1, yaml_path)[0];
+	const std::vector<double> origin = numbers(keys, "origin", 3, yaml_path);
+	const double occupied = numbers(keys, "occupied_thresh", 1, yaml_path)[0], free = numbers(keys, "free_thresh", 1, yaml_path)[0];
+	const bool negate = numbers(keys, "negate", 1, yaml_path)[0] != 0;
+	if (!(image.resolution_m > 0)) throw Error(yaml_path + ": key 'resolution' must be above 0");
+	if (origin[2] != 0) throw Error(yaml_path + ": key 'origin': a map that is turned cannot be read");
+	image.min_x_m = origin[0];
+	image.min_y_m = origin[1];
+	std::istringstream name(keys.count("image") ? keys.at("image") : "");
+	std::string file;
+	if (!(name >> file)) throw Error(yaml_path + ": there is no key 'image'");
+	readPgm((std::filesystem::path(yaml_path).parent_path() / file).string(), image);
+	for (uint8_t& cell : image.cells)
+	{
+		const double p = (negate ? cell : 255 - cell) / 255.0;
+		cell = p > occupied ? OccupancyImage::kOccupied : p < free ? OccupancyImage::kFree : OccupancyImage::kUnknown;
+	}
+	return image;
 }
 }  // namespace viwo

@@ -35,4 +35,9 @@ OccupancyImage occupancyImage(const mrpt::maps::COccupancyGridMap2D& grid);
  */
 void saveMapServer(const std::string& yaml_path, const OccupancyImage& image);
 
+/** Reads such a pair, made trinary by the YAML's thresholds and `negate`. The image must be a binary PGM; the map must not be turned.
+ *  @throws Error naming file and key.
+ */
+OccupancyImage loadMapServer(const std::string& yaml_path);
+
 }  // namespace viwo
