@@ -25,7 +25,7 @@ class Interruption : public OdometryProgram
 		const Json s = summary("out");
 		EXPECT_EQ(s.at("interrupted"), true);
 		EXPECT_EQ(trajectory("out").size(), s.at("poses").get<size_t>());
-		for (const char* name : {"trajectory_imu_rate.tum", "trajectory_covariance.csv", "landmarks.ply", "config.ini"})
+		for (const char* name : {"trajectory_imu_rate.tum", "trajectory_covariance.csv", "landmarks.ply", "keyframes.csv", "config.ini"})
 			EXPECT_TRUE(std::filesystem::exists(output("out", name))) << name;
 		for (const auto& entry : std::filesystem::directory_iterator(folder_.file("out")))
 			EXPECT_NE(entry.path().extension(), ".part") << entry.path();

@@ -53,7 +53,7 @@ class OdometryProgram : public ::testing::Test
 	static const std::vector<std::string>& repeatableFiles()
 	{
 		static const std::vector<std::string> files{"trajectory.tum", "trajectory_imu_rate.tum", "trajectory_covariance.csv",
-		                                            "landmarks.ply"};
+		                                            "landmarks.ply", "landmark_observations.csv", "keyframes.csv"};
 		return files;
 	}
 

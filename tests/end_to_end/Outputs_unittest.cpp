@@ -1,7 +1,9 @@
 #include <viwo/core/Time.h>
 #include <viwo/evaluation/Consistency.h>
 
+#include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "OdometryProgram.h"
@@ -89,6 +91,47 @@ TEST_F(Outputs, LandmarksArePly)
 	EXPECT_EQ(rows, vertices);
 	std::cout << "[measured] " << inside << " of " << rows << " landmarks are in the lobby\n";
 	EXPECT_GT(inside, rows * 9 / 10);
+}
+
+TEST_F(Outputs, KeyFramesTellWhereLandmarksWereSeenFrom)
+{
+	run("out");
+	std::map<int64_t, Eigen::Vector3d> cameras;
+	std::ifstream frames(output("out", "keyframes.csv"));
+	std::string line;
+	std::getline(frames, line);
+	std::getline(frames, line);
+	EXPECT_EQ(line, "t_ns,x,y,z,qx,qy,qz,qw");
+	while (std::getline(frames, line))
+	{
+		long long t_ns = 0;
+		double x = 0, y = 0, z = 0;
+		ASSERT_EQ(std::sscanf(line.c_str(), "%lld,%lf,%lf,%lf", &t_ns, &x, &y, &z), 4) << line;
+		cameras[t_ns] = {x, y, z};
+	}
+	EXPECT_GT(cameras.size(), 5u);
+	// The camera rides 0.3 m above the floor, within the reach of its mounting from where O is.
+	const Trajectory odometry = trajectory("out");
+	for (const auto& [t_ns, p_WC] : cameras)
+	{
+		const auto T_WO = odometry.at(t_ns, 0.2);
+		if (!T_WO) continue;
+		EXPECT_NEAR((p_WC - T_WO->p).norm(), 0.32, 0.1);
+	}
+	std::ifstream observations(output("out", "landmark_observations.csv"));
+	std::getline(observations, line);
+	EXPECT_EQ(line, "landmark_id,t_ns");
+	size_t count = 0;
+	while (std::getline(observations, line))
+	{
+		unsigned long long id = 0;
+		long long t_ns = 0;
+		ASSERT_EQ(std::sscanf(line.c_str(), "%llu,%lld", &id, &t_ns), 2) << line;
+		EXPECT_EQ(cameras.count(t_ns), 1u) << "each stamp is that of a key frame";
+		++count;
+	}
+	std::cout << "[measured] " << cameras.size() << " key frames, " << count << " sightings of landmarks\n";
+	EXPECT_GT(count, 200u);
 }
 
 TEST_F(Outputs, PoseFramesDifferByTheirMounting)

@@ -55,8 +55,8 @@ TEST_F(OdometryRun, WritesAllOutputsAndReportsProgress)
 	EXPECT_GT(last, 0.9);
 	EXPECT_GE(lines, 1u);
 	EXPECT_EQ(result.left_out, "");
-	for (const char* name :
-	     {"trajectory.tum", "trajectory_imu_rate.tum", "trajectory_covariance.csv", "landmarks.ply", "summary.json", "config.ini"})
+	for (const char* name : {"trajectory.tum", "trajectory_imu_rate.tum", "trajectory_covariance.csv", "landmarks.ply",
+	                         "landmark_observations.csv", "keyframes.csv", "summary.json", "config.ini"})
 		EXPECT_TRUE(std::filesystem::exists(folder_.file("out") + "/" + name)) << name;
 	EXPECT_EQ(Trajectory::loadTum(folder_.file("out/trajectory.tum")).size(), static_cast<size_t>(result.poses));
 	EXPECT_EQ(summary().at("poses"), result.poses);

@@ -245,6 +245,24 @@ std::vector<LandmarkPoint> Estimator::landmarks() const
 	return points;
 }
 
+std::vector<KeyFrameView> Estimator::keyFrames() const
+{
+	std::vector<KeyFrameView> views;
+	if (!impl_->running) return views;
+	const Pose3 T_BC = impl_->window.T_BC_pose();
+	for (const auto& frame : impl_->window.frames)
+	{
+		if (!frame->keyframe) continue;
+		KeyFrameView view{frame->t_ns, poseFromBlock(frame->pose.data()) * T_BC, {}};
+		for (const auto& [id, landmark] : impl_->window.landmarks.all())
+			if (landmark.in_use && std::any_of(landmark.sightings.begin(), landmark.sightings.end(),
+			                                   [&](const Sighting& sighting) { return sighting.frame == frame.get(); }))
+				view.landmarks.push_back(id);
+		views.push_back(std::move(view));
+	}
+	return views;
+}
+
 CalibrationEstimate Estimator::calibration() const
 {
 	const Window& w = impl_->window;

@@ -306,6 +306,10 @@ std::vector<LandmarkPoint> Odometry::landmarks() const
 {
 	return impl_->estimator ? impl_->estimator->landmarks() : std::vector<LandmarkPoint>();
 }
+std::vector<KeyFrameView> Odometry::keyFrames() const
+{
+	return impl_->estimator ? impl_->estimator->keyFrames() : std::vector<KeyFrameView>();
+}
 Status Odometry::status() const
 {
 	return impl_->estimator ? impl_->estimator->status() : Status::waiting;

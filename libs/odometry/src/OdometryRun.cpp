@@ -136,7 +136,11 @@ class Run
 		if (hooks_.progress) hooks_.progress(reader_.progress(), note(e));
 	}
 
-	void collectLandmarks() { outputs_.add(odometry_.landmarks(), options_.odometry.estimator.window.tracking_depth_deviation); }
+	void collectLandmarks()
+	{
+		outputs_.add(odometry_.landmarks(), options_.odometry.estimator.window.tracking_depth_deviation);
+		outputs_.add(odometry_.keyFrames());
+	}
 
 	void tell(const StatusChange& c) const
 	{

@@ -40,14 +40,42 @@ void writeCovarianceHeader(std::ostream& out)
 void writeLandmarks(const std::string& path, const std::map<uint64_t, LandmarkPoint>& landmarks)
 {
 	AtomicFile file(path);
-	file.stream() << "ply\nformat ascii 1.0\ncomment landmarks in W, m\nelement vertex " << landmarks.size()
-	              << "\nproperty float x\nproperty float y\nproperty float z\nproperty float depth_deviation\nend_header\n";
+	file.stream()
+	    << "ply\nformat ascii 1.0\ncomment landmarks in W, m\nelement vertex " << landmarks.size()
+	    << "\nproperty float x\nproperty float y\nproperty float z\nproperty float depth_deviation\nproperty uint id\nend_header\n";
 	for (const auto& [id, point] : landmarks)
 	{
-		char text[128];
-		std::snprintf(text, sizeof text, "%.4f %.4f %.4f %.4f\n", point.p_W.x(), point.p_W.y(), point.p_W.z(), point.depth_deviation);
+		char text[160];
+		std::snprintf(text, sizeof text, "%.4f %.4f %.4f %.4f %llu\n", point.p_W.x(), point.p_W.y(), point.p_W.z(), point.depth_deviation,
+		              static_cast<unsigned long long>(id));
 		file.stream() << text;
 	}
+	file.commit();
+}
+
+void writeKeyFrames(const std::string& path, const std::map<int64_t, Pose3>& key_frames)
+{
+	AtomicFile file(path);
+	file.stream() << "# camera (optical axes) in W, m\nt_ns,x,y,z,qx,qy,qz,qw\n";
+	for (const auto& [t_ns, T] : key_frames)
+	{
+		char text[256];
+		std::snprintf(text, sizeof text, ",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(),
+		              T.R.w());
+		file.stream() << t_ns << text;
+	}
+	file.commit();
+}
+
+/** Of the landmarks in landmarks.ply. */
+void writeObservations(const std::string& path, const std::map<uint64_t, LandmarkPoint>& landmarks,
+                       const std::map<uint64_t, std::set<int64_t>>& observations)
+{
+	AtomicFile file(path);
+	file.stream() << "landmark_id,t_ns\n";
+	for (const auto& [id, stamps] : observations)
+		if (landmarks.count(id) > 0)
+			for (const int64_t t_ns : stamps) file.stream() << id << "," << t_ns << "\n";
 	file.commit();
 }
 }  // namespace
@@ -110,11 +138,22 @@ void RunOutputs::add(const std::vector<LandmarkPoint>& landmarks, double max_dev
 		if (point.depth_deviation < max_deviation) landmarks_[point.id] = point;
 }
 
+void RunOutputs::add(const std::vector<KeyFrameView>& key_frames)
+{
+	for (const KeyFrameView& view : key_frames)
+	{
+		key_frames_[view.t_ns] = view.T_WC;
+		for (const uint64_t id : view.landmarks) observations_[id].insert(view.t_ns);
+	}
+}
+
 void RunOutputs::commit()
 {
 	trajectory_.commit();
 	imu_rate_.commit();
 	covariance_.commit();
 	writeLandmarks(dir_ + "/landmarks.ply", landmarks_);
+	writeKeyFrames(dir_ + "/keyframes.csv", key_frames_);
+	writeObservations(dir_ + "/landmark_observations.csv", landmarks_, observations_);
 }
 }  // namespace viwo

@@ -5,6 +5,7 @@
 #include <viwo/odometry/OdometryRun.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace viwo
@@ -19,8 +20,10 @@ class RunOutputs
 	void add(const FrameEstimate& estimate, const Calibration& calibration, const Pose3& T_BC);
 	void add(const NavState& state, const Calibration& calibration, const Pose3& T_BC);
 	void add(const std::vector<LandmarkPoint>& landmarks, double max_deviation);
+	/** The newest view of a key frame is kept, and all landmarks that any of its views names. */
+	void add(const std::vector<KeyFrameView>& key_frames);
 
-	/** Writes landmarks.ply and gives all files their names. */
+	/** Writes landmarks.ply, landmark_observations.csv, keyframes.csv, and gives all files their names. */
 	void commit();
 
 	int poses() const { return poses_; }
@@ -37,6 +40,8 @@ class RunOutputs
 	PoseFrame frame_;
 	AtomicFile trajectory_, imu_rate_, covariance_;
 	std::map<uint64_t, LandmarkPoint> landmarks_;
+	std::map<int64_t, Pose3> key_frames_;                 //!< T_WC by stamp
+	std::map<uint64_t, std::set<int64_t>> observations_;  //!< key frames that saw a landmark
 	int poses_ = 0;
 	double path_length_m_ = 0;
 	Eigen::Vector3d last_p_WO_ = Eigen::Vector3d::Zero();

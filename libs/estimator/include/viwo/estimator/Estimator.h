@@ -58,6 +58,14 @@ struct LandmarkPoint
 	double depth_deviation = 0;  //!< relative deviation of the inverse depth
 };
 
+/** A key frame of the window, and which landmarks it sees. */
+struct KeyFrameView
+{
+	int64_t t_ns = 0;
+	Pose3 T_WC;
+	std::vector<uint64_t> landmarks;  //!< ids, rising
+};
+
 struct EstimatorCounters
 {
 	int frames = 0;
@@ -113,6 +121,8 @@ class Estimator
 	const EstimatorCounters& counters() const;
 	/** Landmarks of the window, in W. */
 	std::vector<LandmarkPoint> landmarks() const;
+	/** Key frames of the window, oldest first. */
+	std::vector<KeyFrameView> keyFrames() const;
 	CalibrationEstimate calibration() const;
 
 	void setStageHook(StageHook hook);

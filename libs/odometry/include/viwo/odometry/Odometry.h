@@ -52,6 +52,8 @@ class Odometry : public mrpt::system::COutputLogger
 	const Trajectory& trajectory() const;
 
 	std::vector<LandmarkPoint> landmarks() const;
+	/** Key frames of the estimator's window, oldest first. */
+	std::vector<KeyFrameView> keyFrames() const;
 	Status status() const;
 	std::vector<StatusChange> statusChanges() const;
 	EstimatorCounters counters() const;

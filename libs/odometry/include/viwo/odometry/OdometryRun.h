@@ -52,7 +52,7 @@ struct OdometryRunHooks
 };
 
 /** A rawlog through viwo::Odometry into a folder: trajectory.tum, trajectory_imu_rate.tum, trajectory_covariance.csv, landmarks.ply,
- * summary.json, config.ini. Files appear under their names when they are whole. An error in mid-log, or an interruption, leaves files that
+ * landmark_observations.csv, keyframes.csv, summary.json, config.ini. Files appear under their names when they are whole. An error in mid-log, or an interruption, leaves files that
  * are valid up to there.
  *  @throws Error with one line for the user.
  */
