@@ -35,7 +35,7 @@ class MotionModel
 
    private:
 	const Session& session_;
-	const MotionNoiseOptions& options_;
+	const MotionNoiseOptions options_;
 	double distance_scale_, turn_scale_;
 };
 }  // namespace viwo::gt

@@ -85,6 +85,11 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 			direction.push_back(-wrapped(std::atan2(step.scan.p.y(), step.scan.p.x()) - 0.5 * step.scan.yaw));
 	}
 	calibration.distance_scale = median(distance);
+	if (calibration.distance_scale)
+	{
+		for (double& ratio : distance) ratio = std::abs(ratio - *calibration.distance_scale);
+		calibration.distance_deviation = *median(distance) / 0.6745;
+	}
 	calibration.turn_scale = median(turn);
 	calibration.lidar_yaw_rad = median(direction);
 	calibration.time_offset_s = timeOffset_s(session, poses);

@@ -11,6 +11,7 @@ namespace viwo::gt
 namespace
 {
 constexpr size_t kHoldoutStride = 10;
+constexpr double kLeastDistancePerM = 0.01;
 /** Errors of ranges that depend on range, incidence and surface are common to many scans: averaging does not make them smaller. */
 constexpr double kSystematic_m = 0.008;
 
@@ -116,6 +117,14 @@ double plausible(const std::optional<double>& scale)
 	return scale && *scale > 0.8 && *scale < 1.25 ? *scale : 1;
 }
 
+/** What the log itself says of its odometry, where that is better than what is configured for any log. */
+MotionNoiseOptions noiseFrom(const OdometryCalibration& calibration, MotionNoiseOptions noise)
+{
+	if (calibration.distance_deviation)
+		noise.distance_per_m = std::min(noise.distance_per_m, std::max(kLeastDistancePerM, *calibration.distance_deviation));
+	return noise;
+}
+
 /** Chain edges that no scan supports: without them the refined graph could fall apart. */
 void keepTogether(const std::vector<GraphEdge>& chain, std::vector<GraphEdge>& kept)
 {
@@ -145,9 +154,12 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 		            " scans has enough valid beams on surfaces; check [scan] min_range_m and max_range_m");
 	solution.window_searches = front_end.searches;
 	const OdometryCalibration early = calibrateOdometry(session, frontEndPoses(front_end));
-	const MotionModel motion(session, options.odometry, plausible(early.distance_scale), plausible(early.turn_scale));
+	const double distance_scale = plausible(early.distance_scale), turn_scale = plausible(early.turn_scale);
+	// Between key scans odometry is trusted as far as the log shows; from scan to scan stamps and quantisation weigh more.
+	const MotionModel far(session, noiseFrom(early, options.odometry), distance_scale, turn_scale);
+	const MotionModel near(session, options.odometry, distance_scale, turn_scale);
 	KeyScans& keys = solution.keys = keyScansOf(front_end);
-	std::vector<GraphEdge> chain = chainEdges(keys, front_end, motion, options.graph);
+	std::vector<GraphEdge> chain = chainEdges(keys, front_end, far, options.graph);
 	std::vector<GraphEdge> kept = odometryEdges(chain);
 	keepTogether(chain, kept);
 	const std::vector<GraphEdge> by_hand = handMade(run.extra_loops, keys, front_end);
@@ -157,7 +169,7 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 	solution.loops = closer.close(run.threads, stage(0.4, 0.6, "closing loops"));
 	solution.edges = refineKeys(keys, kept, options, scales, run.threads, stage(0.6, 0.85, "refining"));
 	const std::vector<Eigen::Matrix3d> covariances = graphCovariances(solution.edges, keys.poses);
-	solution.poses = placeAllScans(session, front_end, keys, covariances, motion, options, scales, held_out, run.threads,
+	solution.poses = placeAllScans(session, front_end, keys, covariances, near, options, scales, held_out, run.threads,
 	                               stage(0.85, 0.95, "placing scans"));
 	for (size_t i = 1; i < solution.poses.size(); ++i)
 		solution.poses[i].covariance.diagonal().head<2>().array() += kSystematic_m * kSystematic_m;

@@ -61,9 +61,10 @@ void describe(const NormalEquations& e, Registration& result)
 
 Eigen::Matrix3d Registration::trustedInformation(double min_weakest) const
 {
-	if (weakest >= min_weakest) return information;
+	// From nothing at the limit to all at twice that: just above it, most of what faces that way is still clutter.
+	const double share = std::clamp(weakest / min_weakest - 1, 0.0, 1.0);
 	Eigen::Matrix3d P = Eigen::Matrix3d::Identity();
-	P.topLeftCorner<2, 2>() -= weakest_direction * weakest_direction.transpose();
+	P.topLeftCorner<2, 2>() -= (1 - std::sqrt(share)) * weakest_direction * weakest_direction.transpose();
 	return P * information * P;
 }
 

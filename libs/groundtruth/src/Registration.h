@@ -33,7 +33,8 @@ struct Registration
 	double weakest = 0;
 	Eigen::Vector2d weakest_direction = Eigen::Vector2d::Zero();
 
-	/** Information without what it claims along the weakest direction where that is below min_weakest: there it is clutter and chance. */
+	/** Information without what it claims along the weakest direction where that is below min_weakest: there it is clutter and chance. From
+	 * twice that on, all of it. */
 	Eigen::Matrix3d trustedInformation(double min_weakest) const;
 
 	double inlierRatio() const { return points > 0 ? static_cast<double>(inliers) / points : 0; }

@@ -36,7 +36,7 @@ struct MatchingOptions : Options<MatchingOptions>
 	int local_map_keys = 40;
 	double local_map_way_m = 30;
 	double min_inlier_ratio = 0.55;
-	double min_weakest = 0.04;
+	double min_weakest = 0.05;
 	double search_distance_m = 0.8;
 	double search_angle_deg = 40;
 
