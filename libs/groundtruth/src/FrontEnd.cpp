@@ -12,6 +12,7 @@ namespace viwo::gt
 namespace
 {
 constexpr int kFewestPoints = 15;
+constexpr double kGoodTrust = 0.25;
 
 /** Keys of the recent past around the robot, as one thin cloud. */
 class LocalMap
@@ -78,7 +79,11 @@ class Tracker
 		TrackedScan scan;
 		scan.T = guess.T;
 		if (points >= kFewestPoints && !map_.empty()) match(cloud, guess, scan, result.searches);
-		if (points >= kFewestPoints && map_.empty()) scan.flag = PoseFlag::good;
+		if (points >= kFewestPoints && map_.empty())
+		{
+			scan.flag = PoseFlag::good;
+			scan.trust = 1;
+		}
 		result.scans.push_back(scan);
 		if (!may_be_key || points < kFewestPoints || !farEnough(scan.T, result)) return;
 		result.keys.push_back(i);
@@ -122,8 +127,8 @@ class Tracker
 		if (!trusted(r))
 		{
 			++searches;
-			const auto found =
-			    map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m, options_.matching.search_angle_deg * kDegree, 0.4);
+			const auto found = map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m,
+			                                         options_.matching.search_angle_deg * kDegree, 0.4);
 			if (found)
 			{
 				const Registration second = registerCloud(cloud, map_.index(), found->T, nullptr, scales_.registration);
@@ -133,12 +138,11 @@ class Tracker
 		scan.inlier_ratio = r.inlierRatio();
 		if (!trusted(r)) return;
 		scan.T = r.T;
-		scan.information = r.trustedInformation(options_.matching.min_weakest);
-		scan.flag = PoseFlag::good;
-		if (r.weakest >= options_.matching.min_weakest) return;
+		scan.trust = r.trust(options_.matching.min_weakest);
+		scan.information = r.trustedInformation(scan.trust);
+		scan.flag = flagOf(scan.trust);
 		// Along a corridor the map of the last scans would hold the robot back a little at every scan: odometry alone moves it there.
-		scan.flag = PoseFlag::degenerate;
-		scan.T.p += r.weakest_direction * r.weakest_direction.dot(guess.T.p - r.T.p);
+		scan.T.p += (1 - scan.trust) * r.weakest_direction * r.weakest_direction.dot(guess.T.p - r.T.p);
 	}
 
 	bool farEnough(const Pose2& T, const FrontEndResult& result) const
@@ -168,6 +172,11 @@ const char* nameOf(PoseFlag flag)
 			break;
 	}
 	return "odometry_only";
+}
+
+PoseFlag flagOf(double trust)
+{
+	return trust < kGoodTrust ? PoseFlag::degenerate : PoseFlag::good;
 }
 
 Scales::Scales(double noise_m)

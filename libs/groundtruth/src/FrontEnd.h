@@ -16,6 +16,8 @@ enum class PoseFlag
 	odometry_only  //!< the scan was of no use
 };
 const char* nameOf(PoseFlag flag);
+/** Of a scan that lies on its map. @param trust in the weakest direction, 0 to 1. */
+PoseFlag flagOf(double trust);
 
 /** Lengths that grow with the noise of the ranges. */
 struct Scales
@@ -32,6 +34,7 @@ struct TrackedScan
 	Pose2 T;                                                //!< O in the front-end's drifting frame
 	Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  //!< of the registration, in that frame's axes
 	PoseFlag flag = PoseFlag::odometry_only;
+	double trust = 0;  //!< in the weakest direction of the registration, 0 to 1
 	double inlier_ratio = 0;
 };
 

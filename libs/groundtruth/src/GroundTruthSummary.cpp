@@ -51,7 +51,7 @@ void writeSummary(const std::string& path, const GroundTruthRunOptions& options,
 	const OdometryCalibration& c = solution.calibration;
 	j["odometry"] = {
 	    {"distance_scale", orNull(c.distance_scale)}, {"turn_scale", orNull(c.turn_scale)}, {"time_offset_s", orNull(c.time_offset_s)}};
-	if (session.has_imu) j["odometry"]["gyro_bias_rad_s"] = session.gyro_bias_rad_s;
+	if (session.has_imu) j["odometry"]["gyro_bias_rad_s"] = session.gyro_bias_rad_s + c.gyro_bias_rad_s.value_or(0);
 	j["lidar_yaw_deg"] = orNull(c.lidar_yaw_rad, 180 / M_PI);
 	j["odometry_edges"] = options.options.graph.odometry_edges;
 	if (without) j["against_odometry_edges"] = {{"mean_m", without->mean_m}, {"max_m", without->max_m}, {"mean_deg", without->mean_deg}};

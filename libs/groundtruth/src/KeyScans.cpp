@@ -1,5 +1,7 @@
 #include "KeyScans.h"
 
+#include <algorithm>
+
 namespace viwo::gt
 {
 namespace
@@ -33,7 +35,7 @@ KeyScans keyScansOf(FrontEndResult& front_end)
 	return keys;
 }
 
-std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, PoseFlag flag, const MotionModel& motion, const GraphOptions& options)
+std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, double trust, const MotionModel& motion, const GraphOptions& options)
 {
 	const auto m = motion.between(keys.scan[a], keys.scan[a + 1]);
 	if (!m) return std::nullopt;
@@ -43,14 +45,12 @@ std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, PoseFlag f
 	edge.T_ab = m->T_ab;
 	// Errors of odometry are systematic: over many edges even a little weight would bend what the scans know. Where they leave a direction
 	// open, odometry is all there is.
-	const double weight = !options.odometry_edges  ? 0
-	                      : flag == PoseFlag::good ? options.odometry_weight
-	                                               : options.odometry_weight_degenerate;
+	const double weight = options.odometry_edges ? trust * options.odometry_weight + (1 - trust) * options.odometry_weight_degenerate : 0;
 	edge.information = m->information * std::max(weight, 1e-4);
 	edge.kind = GraphEdge::Kind::odometry;
 	// Wheels slip and robots are pushed: odometry never outvotes scans that know better. Where they do not, a tight kernel would let it go
 	// at the first wrong registration.
-	edge.kernel = flag == PoseFlag::degenerate ? 10 : 2;
+	edge.kernel = trust < 1 ? 10 : 2;
 	return edge;
 }
 
@@ -66,7 +66,7 @@ std::vector<GraphEdge> chainEdges(const KeyScans& keys, const FrontEndResult& fr
 		edge.b = k + 1;
 		edge.T_ab = between(a.T, b.T);
 		edge.information = inAxesOf(a.T, b.information / options.inflation);
-		const auto odometry = odometryEdge(keys, k, b.flag, motion, options);
+		const auto odometry = odometryEdge(keys, k, std::min(a.trust, b.trust), motion, options);
 		if (odometry) edges.push_back(*odometry);
 		if (!odometry || b.flag == PoseFlag::odometry_only) edge.information += weakInformation();
 		edges.push_back(edge);

@@ -23,6 +23,5 @@ std::vector<GraphEdge> chainEdges(const KeyScans& keys, const FrontEndResult& fr
                                   const GraphOptions& options);
 
 /** An edge of odometry from key a to key a + 1; nothing where it is not known. @param flag of the registration of a + 1. */
-std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, PoseFlag flag, const MotionModel& motion,
-                                      const GraphOptions& options);
+std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, double trust, const MotionModel& motion, const GraphOptions& options);
 }  // namespace viwo::gt

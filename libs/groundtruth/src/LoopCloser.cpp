@@ -115,7 +115,8 @@ std::optional<LoopCloser::Loop> LoopCloser::compare(const Cloud& query, size_t k
 	PointIndex index;
 	index.build(submapCloud(candidate.key, options_.loops.submap_reach_m), 2 * scales_.voxel_m);
 	const Registration r = registerCloud(query, index, match->T, nullptr, scales_.registration);
-	if (r.inlierRatio() < options_.loops.min_inlier_ratio || r.weakest < options_.matching.min_weakest) return std::nullopt;
+	const double trust = r.trust(options_.matching.min_weakest);
+	if (r.inlierRatio() < options_.loops.min_inlier_ratio || trust <= 0) return std::nullopt;
 	// Refinement that leaves the place it started from has found something else.
 	if ((r.T.p - match->T.p).norm() > 0.4) return std::nullopt;
 	Loop loop;
@@ -123,7 +124,7 @@ std::optional<LoopCloser::Loop> LoopCloser::compare(const Cloud& query, size_t k
 	loop.edge.b = key;
 	loop.edge.T_ab = r.T;
 	// Points of a submap have been averaged already: they weigh like a few scans at most.
-	loop.edge.information = r.information / (options_.graph.inflation * std::max(1.0, r.inliers / 150.0));
+	loop.edge.information = r.trustedInformation(trust) / (options_.graph.inflation * std::max(1.0, r.inliers / 150.0));
 	loop.edge.kind = GraphEdge::Kind::loop;
 	loop.edge.kernel = kKernel;
 	const Pose2 correction = between(T_guess, r.T);

@@ -15,13 +15,22 @@ struct Motion2
 	Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  //!< of (x, y, yaw), in a's axes
 };
 
+/** What is known of odometry and gyroscope of this very log. */
+struct MotionCalibration
+{
+	double distance_scale = 1, turn_scale = 1;  //!< factors on odometry's ways and turns
+	/** Standard deviation of ways, m per square root of a metre, where the log tells; never worse than as configured. */
+	std::optional<double> distance_walk;
+	/** Of the yaw rate, on top of what was taken off on loading. Unknown: turns are the gyroscope's, their weight is that of odometry's. */
+	std::optional<double> gyro_bias_rad_s;
+};
+
 /** What odometry and gyroscope say of motions. */
 class MotionModel
 {
    public:
-	/** @param distance_scale, turn_scale factors on odometry's ways and turns. */
-	MotionModel(const Session& session, const MotionNoiseOptions& options, double distance_scale = 1, double turn_scale = 1)
-	    : session_(session), options_(options), distance_scale_(distance_scale), turn_scale_(turn_scale)
+	MotionModel(const Session& session, const MotionNoiseOptions& options, const MotionCalibration& calibration = {})
+	    : session_(session), options_(options), calibration_(calibration)
 	{
 	}
 
@@ -36,6 +45,6 @@ class MotionModel
    private:
 	const Session& session_;
 	const MotionNoiseOptions options_;
-	double distance_scale_, turn_scale_;
+	const MotionCalibration calibration_;
 };
 }  // namespace viwo::gt

@@ -9,22 +9,24 @@ namespace viwo::gt
 {
 namespace
 {
-constexpr double kWindow_s = 1.0;
+constexpr double kWindow_s = 1.0, kLongWindow_s = 4.0;
 constexpr size_t kFewest = 20;
+constexpr double kLeastWalk = 0.003;        // m per square root of a metre
+constexpr double kMedianOfNormal = 0.6745;  // median of |x|, x standard normal
 
 struct Step
 {
 	Pose2 scan, odometry;
 };
 
-/** Motions over about a second, by the scans and by odometry. */
-std::vector<Step> stepsOf(const Session& session, const std::vector<FinalPose>& poses)
+/** Motions over a while, by the scans and by odometry. */
+std::vector<Step> stepsOf(const Session& session, const std::vector<FinalPose>& poses, double window_s)
 {
 	std::vector<Step> steps;
 	for (size_t a = 0, b = 0; a < poses.size(); a = std::max(a + 1, b))
 	{
 		b = std::max(b, a + 1);
-		while (b < poses.size() && secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns) < kWindow_s) ++b;
+		while (b < poses.size() && secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns) < window_s) ++b;
 		if (b >= poses.size()) break;
 		if (!session.scans[a].odometry || !session.scans[b].odometry) continue;
 		if (poses[a].flag != PoseFlag::good || poses[b].flag != PoseFlag::good) continue;
@@ -39,6 +41,57 @@ std::optional<double> median(std::vector<double> values)
 	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
 	std::nth_element(values.begin(), middle, values.end());
 	return *middle;
+}
+
+/** How far ways by scans and by odometry differ, and how long the ways are. */
+struct Spread
+{
+	double variance_m2 = 0, way_m = 0;
+};
+
+std::optional<Spread> spreadOf(const std::vector<Step>& steps, double distance_scale)
+{
+	std::vector<double> differences, ways;
+	for (const Step& step : steps)
+	{
+		const double way = step.odometry.p.norm();
+		if (way < 0.05 || std::abs(step.odometry.yaw) > 20 * kDegree) continue;
+		differences.push_back(std::abs(step.scan.p.norm() - distance_scale * way));
+		ways.push_back(way);
+	}
+	const auto difference = median(differences), way = median(ways);
+	if (!difference) return std::nullopt;
+	return Spread{square(*difference / kMedianOfNormal), *way};
+}
+
+/** What grows with the way is odometry's, the rest that of the scans. */
+std::optional<double> distanceWalk(const Session& session, const std::vector<FinalPose>& poses, double distance_scale)
+{
+	const auto brief = spreadOf(stepsOf(session, poses, kWindow_s), distance_scale);
+	const auto lengthy = spreadOf(stepsOf(session, poses, kLongWindow_s), distance_scale);
+	if (!brief) return std::nullopt;
+	double walk2 = brief->variance_m2 / brief->way_m;
+	if (lengthy && lengthy->way_m > 1.5 * brief->way_m)
+		walk2 = (lengthy->variance_m2 - brief->variance_m2) / (lengthy->way_m - brief->way_m);
+	return std::sqrt(std::max(walk2, square(kLeastWalk)));
+}
+
+/** Turns by the gyroscope against those by scans, which a corridor tells as well as a room: odometry's own would put the error of its
+ *  left and right wheel into the bias. */
+std::optional<double> gyroBias_rad_s(const Session& session, const std::vector<FinalPose>& poses)
+{
+	std::vector<double> rates;
+	for (size_t a = 0, b = 0; a < poses.size(); a = std::max(a + 1, b))
+	{
+		while (b < poses.size() && secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns) < kWindow_s) ++b;
+		if (b >= poses.size()) break;
+		const Scan &from = session.scans[a], &to = session.scans[b];
+		if (!from.gyro_yaw || !to.gyro_yaw || poses[a].flag == PoseFlag::odometry_only || poses[b].flag == PoseFlag::odometry_only)
+			continue;
+		const double turn = wrapped(poses[b].T.yaw - poses[a].T.yaw);
+		rates.push_back(wrapped(*to.gyro_yaw - *from.gyro_yaw - turn) / secondsBetween(from.t_ns, to.t_ns));
+	}
+	return median(rates);
 }
 
 /** Shift of the odometry's yaw rates that fits those of the scans best: of the derivative of the sum of squares, one Newton step. */
@@ -75,7 +128,7 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 {
 	OdometryCalibration calibration;
 	std::vector<double> distance, turn, direction;
-	for (const Step& step : stepsOf(session, poses))
+	for (const Step& step : stepsOf(session, poses, kWindow_s))
 	{
 		const double way = step.odometry.p.norm(), yaw = step.odometry.yaw;
 		if (way > 0.05 && std::abs(yaw) < 5 * kDegree) distance.push_back(step.scan.p.norm() / way);
@@ -87,11 +140,15 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 	calibration.distance_scale = median(distance);
 	if (calibration.distance_scale)
 	{
+		calibration.distance_walk = distanceWalk(session, poses, *calibration.distance_scale);
 		for (double& ratio : distance) ratio = std::abs(ratio - *calibration.distance_scale);
-		calibration.distance_deviation = *median(distance) / 0.6745;
+		// Of a median, from the median of the deviations.
+		calibration.distance_scale_deviation =
+		    1.2533 * *median(distance) / kMedianOfNormal / std::sqrt(static_cast<double>(distance.size()));
 	}
 	calibration.turn_scale = median(turn);
 	calibration.lidar_yaw_rad = median(direction);
+	calibration.gyro_bias_rad_s = gyroBias_rad_s(session, poses);
 	calibration.time_offset_s = timeOffset_s(session, poses);
 	return calibration;
 }

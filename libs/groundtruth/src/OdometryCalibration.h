@@ -8,11 +8,12 @@ namespace viwo::gt
 struct OdometryCalibration
 {
 	std::optional<double> distance_scale;  //!< way by scans over way by odometry
-	/** Standard deviation of ways by odometry around that scale, m per m. Scans have a share in it: an upper bound. */
-	std::optional<double> distance_deviation;
-	std::optional<double> turn_scale;      //!< turn by scans over turn by odometry: above 1 the track is taken too wide
-	std::optional<double> lidar_yaw_rad;   //!< the lidar seems mounted this much to the left of what sensorPose says
-	std::optional<double> time_offset_s;   //!< odometry's stamps plus this are the scans'
+	std::optional<double> distance_scale_deviation;
+	std::optional<double> distance_walk;    //!< standard deviation of a way by odometry around that scale, m per square root of a metre
+	std::optional<double> turn_scale;       //!< turn by scans over turn by odometry: above 1 the track is taken too wide
+	std::optional<double> lidar_yaw_rad;    //!< the lidar seems mounted this much to the left of what sensorPose says
+	std::optional<double> gyro_bias_rad_s;  //!< on top of what was taken off on loading
+	std::optional<double> time_offset_s;    //!< odometry's stamps plus this are the scans'
 };
 
 /** @param poses of all scans; those that are not good are left out. */

@@ -3,15 +3,20 @@
 #include "Refinement.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <numeric>
 
 namespace viwo::gt
 {
 namespace
 {
 constexpr size_t kHoldoutStride = 10;
-constexpr double kLeastDistancePerM = 0.01;
+constexpr double kContradiction = 30;  // chi2 of a registration that the graph does not believe
+constexpr double kTied = 0.05;         // least share of a registration's information in its weakest direction
 /** Errors of ranges that depend on range, incidence and surface are common to many scans: averaging does not make them smaller. */
 constexpr double kSystematic_m = 0.008;
 
@@ -117,12 +122,60 @@ double plausible(const std::optional<double>& scale)
 	return scale && *scale > 0.8 && *scale < 1.25 ? *scale : 1;
 }
 
-/** What the log itself says of its odometry, where that is better than what is configured for any log. */
-MotionNoiseOptions noiseFrom(const OdometryCalibration& calibration, MotionNoiseOptions noise)
+/** What the log itself says of its odometry. An error of the scale is common to the whole way: where odometry alone holds the robot, the
+ *  walk is made wide enough for the scale's uncertainty over all of that. */
+MotionCalibration calibrationOf(const OdometryCalibration& found, const FrontEndResult& front_end)
 {
-	if (calibration.distance_deviation)
-		noise.distance_per_m = std::min(noise.distance_per_m, std::max(kLeastDistancePerM, *calibration.distance_deviation));
-	return noise;
+	double open_way_m = 0;
+	for (size_t k = 1; k < front_end.keys.size(); ++k)
+	{
+		const TrackedScan &a = front_end.scans[front_end.keys[k - 1]], &b = front_end.scans[front_end.keys[k]];
+		if (b.flag != PoseFlag::good) open_way_m += (b.T.p - a.T.p).norm();
+	}
+	MotionCalibration calibration{plausible(found.distance_scale), plausible(found.turn_scale), found.distance_walk, found.gyro_bias_rad_s};
+	if (calibration.distance_walk)
+		calibration.distance_walk = std::sqrt(square(*found.distance_walk) + square(*found.distance_scale_deviation) * open_way_m);
+	return calibration;
+}
+
+/** Key scans that registrations tie to the most part of the map in all directions: beyond a corridor a place can be seen ever so well, its
+ *  distance to the rest is still odometry's. */
+std::vector<bool> tiedToMost(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses)
+{
+	std::vector<size_t> part(poses.size());  // the least key that a key is tied to, by way of others
+	std::iota(part.begin(), part.end(), size_t{0});
+	const auto root = [&part](size_t k)
+	{
+		while (part[k] != k) k = part[k] = part[part[k]];
+		return k;
+	};
+	for (const GraphEdge& edge : edges)
+	{
+		if (edge.kind == GraphEdge::Kind::odometry || chi2(edge, poses) > kContradiction) continue;
+		Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+		solver.computeDirect(edge.information.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+		if (solver.eigenvalues()[0] < kTied * solver.eigenvalues().sum()) continue;
+		const size_t a = root(edge.a), b = root(edge.b);
+		part[std::max(a, b)] = std::min(a, b);
+	}
+	std::vector<size_t> size(poses.size(), 0);
+	for (size_t k = 0; k < poses.size(); ++k) ++size[root(k)];
+	const auto largest = static_cast<size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+	std::vector<bool> tied(poses.size());
+	for (size_t k = 0; k < poses.size(); ++k) tied[k] = root(k) == largest;
+	return tied;
+}
+
+void flagUntied(Solution& solution)
+{
+	const std::vector<bool> tied = tiedToMost(solution.edges, solution.keys.poses);
+	size_t key = 0;
+	for (size_t i = 0; i < solution.poses.size(); ++i)
+	{
+		while (key + 1 < solution.keys.size() && solution.keys.scan[key + 1] <= i) ++key;
+		PoseFlag& flag = solution.poses[i].flag;
+		if (flag == PoseFlag::good && !tied[key]) flag = PoseFlag::degenerate;
+	}
 }
 
 /** Chain edges that no scan supports: without them the refined graph could fall apart. */
@@ -153,11 +206,11 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 		throw Error(run.rawlogs.front() + ": none of the " + std::to_string(session.scans.size()) +
 		            " scans has enough valid beams on surfaces; check [scan] min_range_m and max_range_m");
 	solution.window_searches = front_end.searches;
-	const OdometryCalibration early = calibrateOdometry(session, frontEndPoses(front_end));
-	const double distance_scale = plausible(early.distance_scale), turn_scale = plausible(early.turn_scale);
-	// Between key scans odometry is trusted as far as the log shows; from scan to scan stamps and quantisation weigh more.
-	const MotionModel far(session, noiseFrom(early, options.odometry), distance_scale, turn_scale);
-	const MotionModel near(session, options.odometry, distance_scale, turn_scale);
+	MotionCalibration calibration = calibrationOf(calibrateOdometry(session, frontEndPoses(front_end)), front_end);
+	const MotionModel far(session, options.odometry, calibration);
+	// From scan to scan, jitter of the stamps and quantisation weigh more than what grows with the way.
+	calibration.distance_walk.reset();
+	const MotionModel near(session, options.odometry, calibration);
 	KeyScans& keys = solution.keys = keyScansOf(front_end);
 	std::vector<GraphEdge> chain = chainEdges(keys, front_end, far, options.graph);
 	std::vector<GraphEdge> kept = odometryEdges(chain);
@@ -175,6 +228,7 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 		solution.poses[i].covariance.diagonal().head<2>().array() += kSystematic_m * kSystematic_m;
 	if (run.holdout) solution.holdout = compareHoldout(solution.poses, held_out);
 	solution.calibration = calibrateOdometry(session, solution.poses);
+	flagUntied(solution);
 	if (run.align_axes) turnMap(-offAxes_rad(keys), solution);
 	return solution;
 }

@@ -13,6 +13,7 @@ namespace
 constexpr double kKernel = 3;
 constexpr int kFewestInliers = 25;
 constexpr double kMinRatio = 0.35;
+constexpr double kOpenStep_m = 0.1;
 constexpr double kPresent2 = 0.2 * 0.2, kPresentYaw2 = 0.05 * 0.05;  // m^2, rad^2
 
 struct Near
@@ -66,9 +67,11 @@ std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTr
 		edge.a = k;
 		edge.b = j;
 		edge.T_ab = r.T;
-		if (r.weakest < options.matching.min_weakest) edge.T_ab.p += r.weakest_direction * r.weakest_direction.dot(present.T.p - r.T.p);
+		// What little faces along a corridor is no reason for a step that odometry knows nothing of.
+		const bool stepped = std::abs(r.weakest_direction.dot(r.T.p - present.T.p)) > kOpenStep_m;
+		const double trust = r.trust(options.matching.min_weakest);
 		edge.information =
-		    r.trustedInformation(options.matching.min_weakest) / options.graph.inflation + 1e-6 * Eigen::Matrix3d::Identity();
+		    r.trustedInformation(trust < 1 && stepped ? 0 : trust) / options.graph.inflation + 1e-6 * Eigen::Matrix3d::Identity();
 		edge.kind = k - j <= 12 ? GraphEdge::Kind::scan : GraphEdge::Kind::loop;
 		edge.kernel = kKernel;
 		edges.push_back(edge);

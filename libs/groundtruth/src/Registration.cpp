@@ -1,5 +1,7 @@
 #include "Registration.h"
 
+#include <viwo/core/Scalars.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -59,10 +61,13 @@ void describe(const NormalEquations& e, Registration& result)
 }
 }  // namespace
 
-Eigen::Matrix3d Registration::trustedInformation(double min_weakest) const
+double Registration::trust(double min_weakest) const
 {
-	// From nothing at the limit to all at twice that: just above it, most of what faces that way is still clutter.
-	const double share = std::clamp(weakest / min_weakest - 1, 0.0, 1.0);
+	return square(std::clamp(weakest / min_weakest - 1, 0.0, 1.0));
+}
+
+Eigen::Matrix3d Registration::trustedInformation(double share) const
+{
 	Eigen::Matrix3d P = Eigen::Matrix3d::Identity();
 	P.topLeftCorner<2, 2>() -= (1 - std::sqrt(share)) * weakest_direction * weakest_direction.transpose();
 	return P * information * P;

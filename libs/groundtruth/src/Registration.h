@@ -33,9 +33,12 @@ struct Registration
 	double weakest = 0;
 	Eigen::Vector2d weakest_direction = Eigen::Vector2d::Zero();
 
-	/** Information without what it claims along the weakest direction where that is below min_weakest: there it is clutter and chance. From
-	 * twice that on, all of it. */
-	Eigen::Matrix3d trustedInformation(double min_weakest) const;
+	/** How far the weakest direction is to be trusted: not at all below min_weakest, where it is clutter and chance, wholly from twice that
+	 * on.
+	 */
+	double trust(double min_weakest) const;
+	/** Information of which only this share is left along the weakest direction. */
+	Eigen::Matrix3d trustedInformation(double share) const;
 
 	double inlierRatio() const { return points > 0 ? static_cast<double>(inliers) / points : 0; }
 };

@@ -178,11 +178,13 @@ std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResul
 			            const Registration r = registerCloud(cloud, index, poses[i], nullptr, registration);
 			            if (r.inlierRatio() < options.matching.min_inlier_ratio || r.inliers < 15) continue;
 			            if ((r.T.p - poses[i].p).norm() > 0.5) continue;
-			            if (r.weakest >= options.matching.min_weakest) result[i].matched = r.T;
+			            const double trust = r.trust(options.matching.min_weakest);
+			            const PoseFlag flag = flagOf(trust);
+			            if (flag == PoseFlag::good) result[i].matched = r.T;
 			            if (holdout(i)) continue;
 			            unary[i].T = r.T;
-			            unary[i].information = r.trustedInformation(options.matching.min_weakest) / options.graph.inflation;
-			            result[i].flag = r.weakest < options.matching.min_weakest ? PoseFlag::degenerate : PoseFlag::good;
+			            unary[i].information = r.trustedInformation(trust) / options.graph.inflation;
+			            result[i].flag = flag;
 		            }
 	            });
 	std::vector<std::optional<Motion2>> steps(n);
