@@ -2,6 +2,7 @@
 
 #include <viwo/mapping/MapPlot.h>
 #include <viwo/mapping/ScanMap.h>
+#include <viwo/rawlog/ObjectFile.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <limits>
@@ -62,8 +63,8 @@ void writeMaps(const std::string& dir, const Session& session, const KeyScans& k
 	const mrpt::maps::COccupancyGridMap2D grid = gridOf(scans, resolution_m);
 	const OccupancyImage image = occupancyImage(grid);
 	saveMapServer(dir + "/map.yaml", image);
-	saveGridMap(dir + "/map.gridmap.gz", grid);
-	saveSimpleMap(dir + "/map.simplemap", simpleMapOf(scans));
+	saveObject(dir + "/map.gridmap.gz", grid);
+	saveObject(dir + "/map.simplemap", simpleMapOf(scans));
 	saveMapPlot(dir + "/map.png", pictureOf(image, poses));
 }
 }  // namespace viwo::gt

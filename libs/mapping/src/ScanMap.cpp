@@ -1,13 +1,11 @@
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
-#include <mrpt/serialization/CArchive.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
 #include <viwo/mapping/ScanMap.h>
+#include <viwo/rawlog/ObjectFile.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace viwo
 {
@@ -49,20 +47,6 @@ void sizeFor(const std::vector<PosedScan>& scans, double resolution_m, double fa
 	             static_cast<float>(resolution_m));
 }
 
-template <class Object>
-void saveObject(const std::string& path, const Object& object)
-{
-	const std::string temporary = path + ".part";
-	{
-		mrpt::io::CFileGZOutputStream file;
-		if (!file.open(temporary)) throw Error(path + ": cannot be written; check folder and free space");
-		auto archive = mrpt::serialization::archiveFrom(file);
-		archive << object;
-	}
-	std::error_code error;
-	std::filesystem::rename(temporary, path, error);
-	if (error) throw Error(path + ": cannot be written: " + error.message());
-}
 }  // namespace
 
 COccupancyGridMap2D gridOf(const std::vector<PosedScan>& scans, double resolution_m, double farthest_m)
@@ -87,15 +71,5 @@ mrpt::maps::CSimpleMap simpleMapOf(const std::vector<PosedScan>& scans)
 		map.insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(posed.T_WO)), frame);
 	}
 	return map;
-}
-
-void saveGridMap(const std::string& path, const COccupancyGridMap2D& grid)
-{
-	saveObject(path, grid);
-}
-
-void saveSimpleMap(const std::string& path, const mrpt::maps::CSimpleMap& map)
-{
-	saveObject(path, map);
 }
 }  // namespace viwo

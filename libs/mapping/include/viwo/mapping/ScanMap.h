@@ -24,9 +24,4 @@ mrpt::maps::COccupancyGridMap2D gridOf(const std::vector<PosedScan>& scans, doub
 
 /** MRPT's map of key frames: each scan in a sensory frame of its own at its pose. */
 mrpt::maps::CSimpleMap simpleMapOf(const std::vector<PosedScan>& scans);
-
-/** @name MRPT's own files, compressed by gzip. @throws Error when they cannot be written. @{ */
-void saveGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid);
-void saveSimpleMap(const std::string& path, const mrpt::maps::CSimpleMap& map);
-/** @} */
 }  // namespace viwo
