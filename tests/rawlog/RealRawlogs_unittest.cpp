@@ -156,7 +156,11 @@ TEST(MrptDatasets, TheirCountIsThatOfRawlogEdit)
 		RawlogReader reader(entry.path().string(), options);
 		EXPECT_FALSE(readAll(reader).empty()) << entry.path();
 		const std::string info = runProgram("rawlog-edit", {"--info", "-i", entry.path().string()}).out;
-		EXPECT_NE(info.find("Overall number of objects         : " + std::to_string(reader.counts().entries)), std::string::npos)
-		    << entry.path() << info;
+		const auto tells = [&](uint64_t entries)
+		{ return info.find("Overall number of objects         : " + std::to_string(entries) + "\n") != std::string::npos; };
+		// rawlog-edit reads pairs of action and frame, and passes over a frame at the start that has no action before it.
+		const bool in_pairs = info.find("Actions/SensoryFrame format       : Yes") != std::string::npos;
+		EXPECT_TRUE(tells(reader.counts().entries) || (in_pairs && tells(reader.counts().entries - 1)))
+		    << reader.counts().entries << " entries in " << entry.path() << "; " << info;
 	}
 }

@@ -1,5 +1,6 @@
 #include "ObservationSource.h"
 
+#include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CRawlog.h>
@@ -72,6 +73,9 @@ void refuseOtherCompression(const std::string& path, const std::string& first_by
 ObservationSource::ObservationSource(const std::string& path, const std::string& action_odometry_label)
     : path_((requireReadableFile(path), path)), archive_(path), action_odometry_(action_odometry_label)
 {
+	// Point clouds and rotating scans are stock observations that live in mrpt-maps.
+	static const bool registered = (mrpt::maps::registerAllClasses_mrpt_maps(), true);
+	(void)registered;
 	std::error_code ignored;
 	file_bytes_ = fs::file_size(path, ignored);
 	if (ignored) file_bytes_ = 0;
