@@ -14,6 +14,8 @@ constexpr double kKernel = 3;
 constexpr int kFewestInliers = 25;
 constexpr double kMinRatio = 0.35;
 constexpr double kOpenStep_m = 0.1;
+constexpr size_t kInTime = 12;  // keys apart at most
+constexpr double kStep_m = 0.12, kStep_rad = 0.05;
 constexpr double kPresent2 = 0.2 * 0.2, kPresentYaw2 = 0.05 * 0.05;  // m^2, rad^2
 
 struct Near
@@ -63,6 +65,10 @@ std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTr
 		                        Eigen::Vector3d(1 / kPresent2, 1 / kPresent2, 1 / kPresentYaw2).asDiagonal()};
 		const Registration r = registerCloud(keys.clouds[j], index, present.T, &present, registration);
 		if (r.inliers < kFewestInliers || r.inlierRatio() < kMinRatio) continue;
+		// Neighbours in time are known well from tracking: who leaves that has followed leaves or passers-by.
+		const Pose2 step = between(present.T, r.T);
+		const bool in_time = k - j <= kInTime;
+		if (in_time && (step.p.norm() > kStep_m || std::abs(step.yaw) > kStep_rad)) continue;
 		GraphEdge edge;
 		edge.a = k;
 		edge.b = j;
@@ -72,7 +78,7 @@ std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTr
 		const double trust = r.trust(options.matching.min_weakest);
 		edge.information =
 		    r.trustedInformation(trust < 1 && stepped ? 0 : trust) / options.graph.inflation + 1e-6 * Eigen::Matrix3d::Identity();
-		edge.kind = k - j <= 12 ? GraphEdge::Kind::scan : GraphEdge::Kind::loop;
+		edge.kind = in_time ? GraphEdge::Kind::scan : GraphEdge::Kind::loop;
 		edge.kernel = kKernel;
 		edges.push_back(edge);
 	}
