@@ -5,6 +5,7 @@
 #include <viwo/core/Time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 
 namespace viwo::gt
@@ -190,6 +191,8 @@ Scales::Scales(double noise_m)
 	registration.first_radius_m = 2.5 * registration.last_radius_m;
 	field_sigma_m = 0.06 * factor;
 	field_resolution_m = 0.05 * std::min(factor, 3.0);
+	// What a single pair tells less well, more pairs make up for.
+	partners = std::min(2.0, std::sqrt(factor));
 }
 
 FrontEndResult trackScans(const Session& session, const MotionModel& motion, const GroundTruthOptions& options, const Scales& scales,

@@ -26,6 +26,7 @@ struct Scales
 	double voxel_m;  //!< of local maps
 	RegistrationOptions registration;
 	double field_sigma_m, field_resolution_m;  //!< of correlative search
+	double partners;                           //!< factor on how many key scans a key scan is registered with, and how far away
 };
 
 /** A scan as the front-end left it. */

@@ -25,17 +25,17 @@ struct Near
 };
 
 /** Earlier keys that a key is registered with: the last few, and the nearest of former visits, spread over visits. */
-std::vector<size_t> partners(const KeyScans& keys, size_t k, const GraphOptions& options)
+std::vector<size_t> partners(const KeyScans& keys, size_t k, const GraphOptions& options, double factor)
 {
 	std::vector<size_t> chosen;
-	const size_t wanted = static_cast<size_t>(options.neighbours);
+	const size_t wanted = static_cast<size_t>(factor * options.neighbours);
 	for (const size_t back : {1, 2, 3, 5, 8, 12})
 		if (back <= k && chosen.size() < wanted) chosen.push_back(k - back);
 	std::vector<Near> near;
 	for (size_t j = 0; j + 12 < k; ++j)
 	{
 		const double distance_m = (keys.poses[j].p - keys.poses[k].p).norm();
-		if (distance_m > options.neighbour_distance_m) continue;
+		if (distance_m > factor * options.neighbour_distance_m) continue;
 		near.push_back({distance_m + 0.5 * std::abs(wrapped(keys.poses[j].yaw - keys.poses[k].yaw)), j});
 	}
 	std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.cost != b.cost ? a.cost < b.cost : a.key < b.key; });
@@ -58,7 +58,7 @@ std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTr
 	RegistrationOptions registration = scales.registration;
 	if (!first_round) registration.first_radius_m = registration.last_radius_m;
 	index.build(keys.clouds[k], 2.5 * scales.voxel_m);
-	for (const size_t j : partners(keys, k, options.graph))
+	for (const size_t j : partners(keys, k, options.graph, scales.partners))
 	{
 		// The graph's pose holds directions that the two scans leave open; it does not count in the information.
 		const PosePrior present{between(keys.poses[k], keys.poses[j]),
