@@ -4,6 +4,8 @@
 #include <viwo/core/Time.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace viwo::gt
 {
@@ -11,6 +13,9 @@ namespace
 {
 constexpr double kWindow_s = 1.0, kLongWindow_s = 4.0;
 constexpr size_t kFewest = 20;
+constexpr double kLongestStep_s = 0.5, kLargestRate_rad_s = 0.2;
+constexpr double kOffsetStep_s = 0.01, kWorstOffset_s = 0.02;
+constexpr int kOffsetSteps = 40, kOffsetWidth = 5;
 constexpr double kLeastWalk = 0.003;        // m per square root of a metre
 constexpr double kMedianOfNormal = 0.6745;  // median of |x|, x standard normal
 
@@ -94,33 +99,68 @@ std::optional<double> gyroBias_rad_s(const Session& session, const std::vector<F
 	return median(rates);
 }
 
-/** Shift of the odometry's yaw rates that fits those of the scans best: of the derivative of the sum of squares, one Newton step. */
-std::optional<double> timeOffset_s(const Session& session, const std::vector<FinalPose>& poses)
+/** Yaw rates at one time. */
+struct Rates
 {
-	double numerator = 0, denominator = 0;
-	size_t count = 0;
-	for (size_t i = 2; i + 2 < poses.size(); ++i)
+	double t_s, scan, odometry;
+};
+
+std::vector<Rates> ratesOf(const Session& session, const std::vector<FinalPose>& poses)
+{
+	std::vector<Rates> rates;
+	for (size_t i = 1; i + 1 < poses.size(); ++i)
 	{
-		const auto rate = [&](size_t a, size_t b, bool odometry)
-		{
-			const double turn = odometry ? wrapped(session.scans[b].odometry->yaw - session.scans[a].odometry->yaw)
-			                             : wrapped(poses[b].T.yaw - poses[a].T.yaw);
-			return turn / secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns);
-		};
-		bool usable = true;
-		for (size_t k = i - 2; k <= i + 2; ++k) usable = usable && session.scans[k].odometry && poses[k].flag == PoseFlag::good;
-		if (!usable || secondsBetween(session.scans[i - 2].t_ns, session.scans[i + 2].t_ns) > 2) continue;
-		const double dt_s = secondsBetween(session.scans[i - 1].t_ns, session.scans[i + 1].t_ns);
-		const double slope = (rate(i, i + 2, true) - rate(i - 2, i, true)) / dt_s;
-		const double difference = rate(i - 1, i + 1, false) - rate(i - 1, i + 1, true);
-		if (std::abs(slope) < 0.05 || std::abs(difference) > 0.3) continue;
-		// scans(t) = odometry(t - offset): the difference is minus the slope times the offset.
-		numerator -= slope * difference;
-		denominator += slope * slope;
+		const Scan &a = session.scans[i - 1], &b = session.scans[i + 1];
+		const double dt_s = secondsBetween(a.t_ns, b.t_ns);
+		const bool good = poses[i - 1].flag != PoseFlag::odometry_only && poses[i + 1].flag != PoseFlag::odometry_only;
+		if (!a.odometry || !b.odometry || !good || dt_s > kLongestStep_s) continue;
+		const double t_s = secondsBetween(session.scans[0].t_ns, a.t_ns) + 0.5 * dt_s;
+		rates.push_back({t_s, wrapped(poses[i + 1].T.yaw - poses[i - 1].T.yaw) / dt_s, wrapped(b.odometry->yaw - a.odometry->yaw) / dt_s});
+	}
+	return rates;
+}
+
+/** Mean square of the scans' yaw rates less those that odometry had `offset_s` earlier; single large differences (slip) count little. */
+double misfit(const std::vector<Rates>& rates, double offset_s)
+{
+	double sum = 0;
+	size_t count = 0, k = 0;
+	for (const Rates& r : rates)
+	{
+		while (k + 1 < rates.size() && rates[k + 1].t_s < r.t_s - offset_s) ++k;
+		while (k > 0 && rates[k].t_s > r.t_s - offset_s) --k;
+		if (k + 1 >= rates.size() || rates[k].t_s > r.t_s - offset_s) continue;
+		const Rates &a = rates[k], &b = rates[k + 1];
+		if (b.t_s - a.t_s > kLongestStep_s) continue;
+		const double odometry = a.odometry + (r.t_s - offset_s - a.t_s) / (b.t_s - a.t_s) * (b.odometry - a.odometry);
+		sum += std::min(square(r.scan - odometry), square(kLargestRate_rad_s));
 		++count;
 	}
-	if (count < kFewest) return std::nullopt;
-	return numerator / denominator;
+	return count < kFewest ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
+}
+
+/** The shift at which yaw rates by odometry fit those by scans best; nothing where the rates vary too little to tell. */
+std::optional<double> timeOffset_s(const Session& session, const std::vector<FinalPose>& poses)
+{
+	const std::vector<Rates> rates = ratesOf(session, poses);
+	double best = std::numeric_limits<double>::infinity();
+	int at = 0;
+	for (int k = -kOffsetSteps; k <= kOffsetSteps; ++k)
+	{
+		const double value = misfit(rates, k * kOffsetStep_s);
+		if (value < best || (value == best && std::abs(k) < std::abs(at)))
+		{
+			best = value;
+			at = k;
+		}
+	}
+	if (!std::isfinite(best) || std::abs(at) == kOffsetSteps) return std::nullopt;
+	const double before = misfit(rates, (at - kOffsetWidth) * kOffsetStep_s), behind = misfit(rates, (at + kOffsetWidth) * kOffsetStep_s);
+	const double curvature = before - 2 * best + behind, h_s = kOffsetWidth * kOffsetStep_s;
+	// Deviation of the minimum of a parabola through sums of that many squares.
+	const double deviation_s = h_s * std::sqrt(best / (0.5 * static_cast<double>(rates.size()) * curvature));
+	if (!(curvature > 0) || !(deviation_s < kWorstOffset_s)) return std::nullopt;
+	return at * kOffsetStep_s + 0.5 * h_s * (before - behind) / curvature;
 }
 }  // namespace
 
