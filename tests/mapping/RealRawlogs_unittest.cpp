@@ -7,6 +7,7 @@
 #include <viwo/mapping/OctoMapRun.h>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -31,6 +32,14 @@ OctoMapRunOptions singleObservation(const TempFolder& folder, const std::string&
 	options.threads = 2;
 	writeFile(options.trajectory, t_s + " 0 0 0 0 0 0 1\n");
 	return options;
+}
+
+double cpuOfChildren_s()
+{
+	rusage usage{};
+	getrusage(RUSAGE_CHILDREN, &usage);
+	const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+	return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 double numberAfter(const std::string& text, const std::string& key)
@@ -91,15 +100,16 @@ TEST(RealRawlogs, IntelLog)
 	ASSERT_EQ(run.status, 0) << run.err;
 	run = runProgram(bin + "viwo-groundtruth", {"-i", rawlog, "-o", truth, "--threads", "2", "--quiet"});
 	ASSERT_EQ(run.status, 0) << run.err;
+	const double before_s = cpuOfChildren_s();
 	run = runProgram(bin + "viwo-octomap", {"-i", rawlog, "-t", truth + "/trajectory.tum", "-o", folder.file("intel.bt"), "--flags",
 	                                        truth + "/trajectory_covariance.csv", "--threads", "2"});
 	ASSERT_EQ(run.status, 0) << run.err;
-	const double wall_s = numberAfter(run.out, "leaves; "), memory_mb = numberAfter(run.out, " s, ");
-	std::cout << "[measured] " << run.out << run.err;
+	// The bound is on the time of a machine that does nothing else: that of all threads together is an upper bound of it under any load.
+	const double cpu_s = cpuOfChildren_s() - before_s, memory_mb = numberAfter(run.out, " s, ");
+	std::cout << "[measured] " << cpu_s << " s of CPU; " << run.out << run.err;
 	const double observations = numberAfter(run.out, "intel.bt: ");
 	EXPECT_GE(observations, 13000);
-	EXPECT_LE(wall_s, 30);
-	EXPECT_GT(wall_s, 0);
+	EXPECT_LE(cpu_s, 30);
 	EXPECT_LE(memory_mb, 200);
 	EXPECT_GT(memory_mb, 0);
 }

@@ -11,7 +11,7 @@
 
 namespace viwo::testing
 {
-/** A simulated drive with planar scans in a shipped world: noise and mixed pixels of the shipped rig, at half its rate. */
+/** A simulated drive with planar scans in a shipped world: noise and mixed pixels of the shipped rig, at a third of its rate. */
 struct SimulatedScans
 {
 	sim::World world;
@@ -23,7 +23,7 @@ struct SimulatedScans
 	{
 		sim::Rig rig;
 		sim::Route route;
-		sim::loadRun(shared("rigs/turtlebot2"), shared("routes/" + route_name), {"lidar.rate_hz=12.5"}, rig, route);
+		sim::loadRun(shared("rigs/turtlebot2"), shared("routes/" + route_name), {"lidar.rate_hz=8"}, rig, route);
 		rig.lidar.systematic_error_mm = systematic_mm;
 		constexpr uint64_t kSeed = 1;
 		const sim::Motion motion(route, rig.floor, rig.vibration, kSeed);

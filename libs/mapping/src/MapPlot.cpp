@@ -125,7 +125,7 @@ void drawGrid(const Paper& paper, PlotCanvas& canvas)
 
 void drawScaleBar(const Paper& paper, PlotCanvas& canvas)
 {
-	const double length = paper.scale() * paper.step_m(), right = paper.right() - 14, left = right - length, y = paper.bottom() - 14;
+	const double length = paper.scale() * paper.step_m(), right = paper.right() - 28, left = right - length, y = paper.bottom() - 18;
 	canvas.polyline({{left - 2, y - 6}, {right + 2, y - 6}}, kPaper, 28);
 	for (const auto& [colour, width] : {std::pair{kPaper, 7.0}, std::pair{kInk, 3.0}})
 		canvas.polyline({{left, y}, {right, y}}, colour, width);
