@@ -42,7 +42,8 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--align", a.alignment, "What is taken out before comparing: se3, yaw (z rotation and shift), none or sim3 (with scale)")
 	    ->check(CLI::IsMember({"se3", "yaw", "none", "sim3"}))
 	    ->capture_default_str();
-	cli.add_flag("--allow-missing", a.allow_missing, "An estimate whose file is not there is a row without figures (and over every limit)");
+	cli.add_flag("--allow-missing", a.allow_missing,
+	             "An estimate whose file is not there or empty is a row without figures (and over every limit)");
 	cli.add_option("--json", a.json, "Write the figures to this file too");
 	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file");
 	cli.add_option("--html", a.html, "Write figures and pictures as one page to this file: no script, no network, light and dark");
@@ -77,11 +78,18 @@ TrajectoryErrors noErrors()
 	return e;
 }
 
+/** Not there, or empty as that of a run that found no pose. */
+bool isMissing(const std::string& path)
+{
+	std::error_code ignored;
+	return !std::filesystem::exists(path, ignored) || std::filesystem::is_empty(path, ignored);
+}
+
 EstimateReport evaluateFile(const Arguments& a, const Trajectory& reference, size_t index, std::vector<MatchedPose>& matches)
 {
 	EstimateReport report;
 	report.name = a.estimates[index];
-	if (a.allow_missing && !std::filesystem::exists(report.name))
+	if (a.allow_missing && isMissing(report.name))
 	{
 		report.errors = noErrors();
 		return report;
@@ -117,7 +125,7 @@ void writeHtml(const Arguments& a, const Trajectory& reference, const std::vecto
 	std::vector<NamedTrajectory> estimates;
 	const std::vector<std::string> names = legendNames(a.estimates);
 	for (size_t i = 0; i < a.estimates.size(); ++i)
-		if (std::filesystem::exists(a.estimates[i])) estimates.push_back({names[i], Trajectory::loadTum(a.estimates[i])});
+		if (!isMissing(a.estimates[i])) estimates.push_back({names[i], Trajectory::loadTum(a.estimates[i])});
 	writeAtomically(
 	    a.html, evaluationHtml(a.reference, a.options, reports, trajectoryPictures(reference, estimates, a.options, PlotColours::page)));
 }

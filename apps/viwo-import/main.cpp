@@ -50,7 +50,7 @@ int main(int argc, char** argv)
 	kitti->add_option("--speed-scale", kitti_options.speed_scale, "Factor on the forward speed")
 	    ->check(app::positive())
 	    ->capture_default_str();
-	kitti->add_option("--seed", kitti_options.seed, "Of the speed noise")->capture_default_str();
+	kitti->add_option("--seed", kitti_options.seed, "Of the speed noise")->check(app::seed())->capture_default_str();
 	CLI::App* carmen = cli.add_subcommand("carmen", "A CARMEN log with scans and odometry (plain, .gz or .bz2)");
 	addFiles(*carmen, job);
 	cli.footer(

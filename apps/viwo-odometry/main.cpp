@@ -29,7 +29,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--pose-frame", a.pose_frame, "Whose pose is written: O (vehicle), B (IMU), C (camera)")
 	    ->check(CLI::IsMember({"O", "B", "C"}))
 	    ->capture_default_str();
-	cli.add_option("--from", a.run.from_s, "Start here, s from the log's first stamp")->check(app::nonNegative());
+	cli.add_option("--from", a.run.from_s, "Start here, s from the first stamp of the labels in use")->check(app::nonNegative());
 	cli.add_option("--to", a.run.to_s, "Stop here, s from the log's first stamp")->check(app::nonNegative());
 	CLI::Option* const realtime = cli.add_flag("--realtime", a.realtime, "Replay by the log's clock");
 	cli.add_option("--speed", a.speed, "With --realtime: times the log's clock")
@@ -83,6 +83,7 @@ int main(int argc, char** argv)
 		                const OdometryRunResult result = runOdometry(a.run, hooks);
 		                bar.clear();
 		                printResult(a.run, result);
+		                if (!result.doubt.empty()) throw Error(result.doubt);
 		                if (!result.left_out.empty()) throw Error(result.left_out);
 		                return result.interrupted ? 1 : 0;
 	                });

@@ -36,7 +36,9 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("-g,--rig", a.rig, "Robot and sensors: an INI file, or the name of one in share/viwo/rigs")
 	    ->capture_default_str()
 	    ->excludes(sequence);
-	cli.add_option("-s,--seed", a.seed, "Seed of all random draws: same inputs and seed, same files")->capture_default_str();
+	cli.add_option("-s,--seed", a.seed, "Seed of all random draws: same inputs and seed, same files")
+	    ->check(app::seed())
+	    ->capture_default_str();
 	cli.add_option("-o,--output", a.output, "X.rawlog; X_Images/, X_ground_truth.tum and X_simulation.ini are written beside it")
 	    ->required();
 	cli.add_flag("--no-images", a.no_images, "Without the camera (seconds instead of minutes)");

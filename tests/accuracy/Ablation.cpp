@@ -16,6 +16,7 @@ constexpr double kDiverged_percent = 5;
 struct Part
 {
 	std::string name, key;
+	bool slips = false;  //!< shows only where a wheel slips
 };
 
 std::vector<Part> parts()
@@ -24,7 +25,13 @@ std::vector<Part> parts()
 	        {"wheel factor", "wheel_factor"},
 	        {"wheels in the initialisation", "wheels_in_initialization"},
 	        {"wheel intrinsics", "estimate_wheel_intrinsics"},
-	        {"slip gate", "slip_gate"}};
+	        {"slip gate", "slip_gate", true}};
+}
+
+std::vector<SimulatedDrive> drivesOf(const Part& part)
+{
+	if (!part.slips) return {corridorDrive(), lobbyDrive()};
+	return {slipping(corridorDrive(), 0), slipping(lobbyDrive(), 0)};
 }
 
 std::vector<RunRecipe> runs(const SimulatedDrive& drive, const Part& part, int seeds)
@@ -57,11 +64,12 @@ std::vector<std::string> Ablation::bars() const
 
 void Ablation::plan(Runner& runner) const
 {
-	for (const SimulatedDrive& drive : {corridorDrive(), lobbyDrive()})
-	{
-		wantAll(runner, runsOf(drive, settings_.seeds));
-		for (const Part& part : parts()) wantAll(runner, runs(drive, part, settings_.seeds));
-	}
+	for (const Part& part : parts())
+		for (const SimulatedDrive& drive : drivesOf(part))
+		{
+			wantAll(runner, runsOf(drive, settings_.seeds));
+			wantAll(runner, runs(drive, part, settings_.seeds));
+		}
 }
 
 std::vector<Row> Ablation::judge(const Runner& runner) const
@@ -72,7 +80,7 @@ std::vector<Row> Ablation::judge(const Runner& runner) const
 	{
 		std::vector<double> all;
 		std::string detail;
-		for (const SimulatedDrive& drive : {corridorDrive(), lobbyDrive()})
+		for (const SimulatedDrive& drive : drivesOf(part))
 		{
 			// A part that is off may cost a later start; what then is driven must hold.
 			const auto scores = scoresOf(runner, runs(drive, part, settings_.seeds), 0);

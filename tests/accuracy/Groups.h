@@ -14,6 +14,9 @@ std::unique_ptr<Group> corridor(const Settings& settings);
 /** A constant arc, in motion from the first sample on: all three modes. */
 std::unique_ptr<Group> lobby(const Settings& settings);
 
+/** Camera and IMU alone, held in a hand: six degrees of freedom, all excited. */
+std::unique_ptr<Group> handHeld(const Settings& settings);
+
 /** One wheel turns 30 % too much for two seconds; each run is compared with that of the same seed without slip. */
 std::unique_ptr<Group> slip(const Settings& settings);
 

@@ -8,10 +8,6 @@ namespace viwo::accuracy
 {
 namespace
 {
-/** Begin, duration, fraction, wheel. */
-constexpr const char* kLeft = "wheels.slips=20 2 0.3 0";
-constexpr const char* kRight = "wheels.slips=20 2 0.3 1";
-
 struct Case
 {
 	SimulatedDrive clean;
@@ -26,7 +22,7 @@ std::vector<Case> cases()
 /** Left and right in turn. */
 std::vector<RunRecipe> slipRuns(const SimulatedDrive& clean, int seeds)
 {
-	const auto left = runsOf(clean.with("slip", {kLeft}), seeds), right = runsOf(clean.with("slip", {kRight}), seeds);
+	const auto left = runsOf(slipping(clean, 0), seeds), right = runsOf(slipping(clean, 1), seeds);
 	std::vector<RunRecipe> runs;
 	for (size_t i = 0; i < left.size(); ++i) runs.push_back(i % 2 == 0 ? left[i] : right[i]);
 	return runs;

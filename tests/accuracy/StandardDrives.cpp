@@ -12,6 +12,11 @@ SimulatedDrive lobbyDrive()
 	return {"lobby", "lobby", "lobby_arc", {"lidar.enabled=false"}};
 }
 
+SimulatedDrive slipping(const SimulatedDrive& clean, int wheel)
+{
+	return clean.with("slip", {"wheels.slips=20 2 0.3 " + std::to_string(wheel)});
+}
+
 LogRecipe importedLog(const std::string& name, const std::string& layout, const std::string& folder,
                       const std::vector<std::string>& options)
 {

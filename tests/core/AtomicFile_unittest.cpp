@@ -43,6 +43,20 @@ TEST(AtomicFile, WithoutCommitTheOldOneStays)
 	EXPECT_EQ(countFiles(folder), 1u);
 }
 
+TEST(AtomicFile, TwoWritersDoNotMix)
+{
+	TempFolder folder;
+	writeFile(folder.file("a.txt.part"), "left behind by a program that was killed");
+	AtomicFile file(folder.file("a.txt"));
+	file.stream() << "first";
+	expectError([&] { AtomicFile(folder.file("a.txt")); }, {folder.file("a.txt"), "another program is writing"});
+	file.commit();
+	EXPECT_EQ(readFile(folder.file("a.txt")), "first");
+	AtomicFile next(folder.file("a.txt"));
+	next.commit();
+	EXPECT_EQ(countFiles(folder), 1u);
+}
+
 TEST(AtomicFile, MissingFolderOrFolderAsName)
 {
 	TempFolder folder;

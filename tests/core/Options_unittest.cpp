@@ -97,7 +97,7 @@ TEST_F(OptionsFile, AbsentKeysAndSectionsKeepTheirValues)
 
 TEST_F(OptionsFile, CaseAndWindowsLineEndsDoNotMatter)
 {
-	load("[Basket]\r\nCount = 9\r\nlabel = IMU\r\n");
+	load("\xEF\xBB\xBF[Basket]\r\nCount = 9\r\nlabel = IMU\r\n");
 	EXPECT_EQ(basket.count, 9);
 	EXPECT_EQ(basket.label, "IMU");
 }
@@ -139,6 +139,7 @@ TEST_F(OptionsFile, WhatTheParserSkipsInSilenceIsAnError)
 	expectBad("[basket]\ncount 4\n", {path + ":2", "count 4"});
 	expectBad("count = 4\n[basket]\n", {path + ":1", "before"});
 	expectBad("[basket\ncount = 4\n", {path + ":1", "]"});
+	expectBad(std::string("\x1f\x8b\x00\x01", 4), {path, "no text"});
 }
 
 TEST_F(OptionsFile, UnreadableFile)

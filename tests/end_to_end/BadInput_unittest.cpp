@@ -147,10 +147,41 @@ TEST_F(BadInput, ImageOfAnotherSizeThanItsCalibration)
 {
 	const auto shrink = [](CObservation& o, double, RawlogWriter& w)
 	{
-		if (auto* image = dynamic_cast<CObservationImage*>(&o)) image->cameraParams.ncols = 320, image->cameraParams.nrows = 240;
+		if (auto* image = dynamic_cast<CObservationImage*>(&o)) image->cameraParams.scaleToResolution(320, 240);
 		w.write(o);
 	};
 	expectFailure(edited(shrink), {"640 x 480", "320 x 240", "calibrat"});
+}
+
+TEST_F(BadInput, CalibrationThatWasMadeAtAnotherResolution)
+{
+	const auto enlarge = [](CObservation& o, double, RawlogWriter& w)
+	{
+		auto* image = dynamic_cast<CObservationImage*>(&o);
+		if (image != nullptr)
+		{
+			image->cameraParams.scaleToResolution(1280, 960);
+			image->cameraParams.ncols = 640;
+			image->cameraParams.nrows = 480;
+		}
+		w.write(o);
+	};
+	expectFailure(edited(enlarge), {"CAM", "642.", "640 x 480", "principal point"});
+}
+
+/** Gravity fits and the camera too: the contradiction with the wheels is all that tells. */
+TEST_F(BadInput, ImuMountedTheOtherWayRound)
+{
+	const auto turn = [](CObservation& o, double, RawlogWriter& w)
+	{
+		if (auto* imu = dynamic_cast<CObservationIMU*>(&o)) imu->sensorPose = mrpt::poses::CPose3D(0.1, 0.02, 0.3, M_PI / 2, 0, -M_PI / 2);
+		w.write(o);
+	};
+	const std::string sample = VIWO_SOURCE_DIR "/rawlogs/sample.rawlog";
+	expectFailure(editedLog(sample, folder_, 60, turn), {"the path is", "the wheels rolled", "cannot be trusted", "sensorPose"});
+	expectKept(100);
+	EXPECT_FALSE(summary("out").at("doubt").get<std::string>().empty());
+	EXPECT_NEAR(summary("out").at("wheel_travel_m").get<double>(), 4.55, 0.2);
 }
 
 TEST_F(BadInput, NoCalibration)

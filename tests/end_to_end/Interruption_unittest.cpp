@@ -36,7 +36,7 @@ class Interruption : public OdometryProgram
 
 TEST_F(Interruption, LeavesWhatWasComputed)
 {
-	for (const int signal : {SIGINT, SIGTERM})
+	for (const int signal : {SIGINT, SIGTERM, SIGHUP})
 	{
 		expectValidOutputs(interrupt(log_.rawlog, signal, 3, "wio"));
 		const double duration_s = summary("out").at("duration_s").get<double>();

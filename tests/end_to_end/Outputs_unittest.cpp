@@ -1,3 +1,4 @@
+#include <viwo/core/AtomicFile.h>
 #include <viwo/core/Time.h>
 #include <viwo/evaluation/Consistency.h>
 
@@ -43,6 +44,27 @@ TEST_F(Outputs, SummaryTellsHowItWent)
 	EXPECT_EQ(s.at("observations").at("IMU").at("class"), "CObservationIMU");
 	EXPECT_GT(s.at("observations").at("IMU").at("used").get<int>(), 1900);
 	for (const char* label : {"CAM", "IMU", "ODOMETRY"}) EXPECT_TRUE(s.at("observations").at(label).at("rejected").empty());
+}
+
+/** Without standard streams the first files that are opened must not take their place. */
+TEST_F(Outputs, ClosedStandardStreamsDoNoHarm)
+{
+	run("out", {"--mode", "wio"}, "5");
+	const std::string command = quoted(program("viwo-odometry")) + " -i " + quoted(log_.rawlog) + " -o " + quoted(folder_.file("closed")) +
+	                            " --mode wio --to 5 <&- >&- 2>&-";
+	EXPECT_EQ(std::system(command.c_str()), 0);
+	for (const char* file : {"trajectory.tum", "trajectory_imu_rate.tum", "trajectory_covariance.csv"})
+		EXPECT_TRUE(readFile(output("out", file)) == readFile(output("closed", file))) << file;
+}
+
+TEST_F(Outputs, TwoRunsInOneFolderDoNotMix)
+{
+	std::filesystem::create_directories(folder_.file("out"));
+	const AtomicFile other(output("out", "trajectory.tum"));
+	const ProgramResult second = runOdometry(log_.rawlog, "out", {"--mode", "wheel", "--to", "5", "--quiet"});
+	EXPECT_EQ(second.status, 1);
+	EXPECT_NE(second.err.find("another program is writing"), std::string::npos) << second.err;
+	EXPECT_EQ(second.errorLines(), 1u);
 }
 
 TEST_F(Outputs, TrajectoriesAndCovariancesBelongTogether)

@@ -1,3 +1,4 @@
+#include <viwo/core/So3.h>
 #include <viwo/estimator/Estimator.h>
 
 #include <SimulatedDrive.h>
@@ -179,6 +180,46 @@ TEST(Estimator, VisionStartsOnAConstantArcWhenWheelsFollow)
 		EXPECT_LT(errors.ate_xyz_m, 0.015 * errors.length_m);
 		EXPECT_EQ(result.counters.reinitializations, 0);
 	}
+}
+
+/** Wheels that are not what is published, and a camera that sits elsewhere: what the estimator finds is nearer to the truth. */
+TEST(Estimator, FindsWheelsAndCameraPose)
+{
+	DriveSetup setup("straight 1 m, arc 1 m 120 deg, rotate -90 deg, straight 1 m, arc 1 m -90 deg");
+	setup.wheels.radius_error = 0;
+	setup.wheels.left_right_difference = 0.012;
+	setup.wheels.track_error = 0.02;
+	Drive drive(setup);
+	const Pose3 T_BC_true = drive.calibration.T_BC();
+	const Eigen::Quaterniond turn = so3::expQuaternion(Eigen::Vector3d(0.006, -0.008, 0.007));
+	drive.calibration.T_OC.R = (drive.calibration.T_OC.R * turn).normalized();
+	const DriveResult result = runDrive(drive, optionsOf(Mode::viwo));
+	const WheelIntrinsics& wheels = result.calibration.wheels;
+	const double ratio_error = std::abs(wheels.k_right / wheels.k_left - 1.012);
+	// Turns tell the track against the size of the wheels, and that is known from the priors alone.
+	const double k = 0.5 * (wheels.k_left + wheels.k_right), track_error = std::abs(wheels.track_m / 0.23 / k - 1.02 / 1.006);
+	const double camera_rad = so3::log(T_BC_true.R.conjugate() * result.calibration.T_BC.R).norm(), start_rad = so3::log(turn).norm();
+	measured("right over left radius, error", 100 * ratio_error, "% (1.2 at the start)");
+	measured("track against the wheels, error", 100 * track_error, "% (1.4 at the start)");
+	measured("rotation of T_BC, error", 1e3 * camera_rad, "mrad (" + std::to_string(1e3 * start_rad) + " at the start)");
+	EXPECT_LT(ratio_error, 0.25 * 0.012);
+	EXPECT_LT(track_error, 0.5 * 0.014);
+	EXPECT_LT(camera_rad, 0.5 * start_rad);
+}
+
+/** Gravity is configuration: at the equator and on a mountain it is another. */
+TEST(Estimator, GravityIsThatOfTheConfiguration)
+{
+	DriveSetup setup("straight 1 m, arc 1 m 60 deg");
+	setup.imu.gravity_m_s2 = 9.76;
+	const Drive drive(setup);
+	EstimatorOptions options = optionsOf(Mode::viwo);
+	options.noise.gravity_m_s2 = 9.76;
+	const DriveResult result = runDrive(drive, options);
+	const TrajectoryErrors errors = errorsOf(drive, result);
+	measured("ATE at 9.76 m/s^2", 1e3 * errors.ate_xyz_m, "mm");
+	EXPECT_LT(errors.ate_xyz_m, 0.03);
+	EXPECT_EQ(result.counters.reinitializations, 0);
 }
 
 /** A base whose first reading comes after the first image. */

@@ -72,7 +72,7 @@ TEST(LocalCost, UndefinedResidualIsLargeAndFlat)
 	double r = 0, j = 7;
 	double* J[] = {&j};
 	EXPECT_TRUE(cost.Evaluate(x, &r, J));
-	EXPECT_EQ(r, LocalCost::invalid_residual);
+	EXPECT_EQ(r, LocalCost::kInvalidResidual);
 	EXPECT_EQ(j, 0);
 	EXPECT_FALSE(cost.linearize(x, &r, J));
 }

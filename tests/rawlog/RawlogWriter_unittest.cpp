@@ -128,6 +128,11 @@ TEST(CameraParameters, BadCalibrationIsAnError)
 	camera.ncols = 0;
 	expectError([&] { fromMrpt(camera); }, {"image size"});
 	camera.ncols = 640;
+	camera.nrows = 480;
+	expectError([&] { fromMrpt(camera); }, {"640 x 480", "principal point"});
+	camera.setIntrinsicParamsFromValues(340, 340, 642, 475);
+	expectError([&] { fromMrpt(camera); }, {"cx 642.0", "640 x 480", "principal point"});
+	camera.setIntrinsicParamsFromValues(340, 340, 321, 238);
 	camera.distortion = mrpt::img::DistortionModel::plumb_bob;
 	camera.dist[5] = 0.1;
 	expectError([&] { fromMrpt(camera); }, {"five"});

@@ -1,7 +1,10 @@
+#include <fcntl.h>
 #include <viwo/app/Program.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -28,6 +31,18 @@ void installSignalHandlers()
 	sigemptyset(&action.sa_mask);
 	sigaction(SIGINT, &action, nullptr);
 	sigaction(SIGTERM, &action, nullptr);
+	sigaction(SIGHUP, &action, nullptr);
+	// A reader that has gone and a file that grows too large are errors of writing, told as such; they end no run that writes elsewhere,
+	// too.
+	std::signal(SIGPIPE, SIG_IGN);
+	std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/** Started without standard streams (2>&-), the first files that are opened would take their place, and messages would end up in them. */
+void reserveStandardStreams()
+{
+	for (int fd = 0; fd <= 2; ++fd)
+		if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) std::abort();
 }
 
 /** Messages of other libraries may have several lines; a user gets one. */
@@ -102,6 +117,16 @@ CLI::Validator positive()
 	return finiteNumber("above 0", [](double value) { return value > 0; });
 }
 
+CLI::Validator seed()
+{
+	const auto check = [](std::string& text)
+	{
+		const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+		return digits && text.size() <= 18 ? std::string() : "'" + text + "' is not a whole number from 0 to 999999999999999999";
+	};
+	return CLI::Validator(check, "");
+}
+
 CLI::Validator notEmpty()
 {
 	return CLI::Validator([](std::string& text) { return text.empty() ? std::string("the name is empty") : std::string(); }, "");
@@ -109,6 +134,7 @@ CLI::Validator notEmpty()
 
 int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 {
+	reserveStandardStreams();
 	std::string program = cli.get_name();
 	if (program.empty()) program = std::filesystem::path(argc > 0 ? argv[0] : "viwo").filename().string();
 	cli.name(program);

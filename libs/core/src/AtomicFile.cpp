@@ -1,6 +1,11 @@
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,16 +26,39 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path)
 	// A device or pipe (/dev/stdout) is written as it is: renaming would replace it.
 	const bool special = fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored);
 	temporary_path_ = special ? path_ : path_ + ".part";
+	if (!special) lock();
 	errno = 0;
 	stream_.open(temporary_path_, std::ios::binary | std::ios::trunc);
 	if (!stream_) throw Error(path + ": cannot write: " + std::strerror(errno) + "; check the permissions of the folder");
 }
 
+/** Two programs that write one file at once would mix their lines. What a killed program has left behind holds no lock. */
+void AtomicFile::lock()
+{
+	for (;;)
+	{
+		lock_ = ::open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+		if (lock_ < 0) throw Error(path_ + ": cannot write: " + std::strerror(errno) + "; check the permissions of the folder");
+		const bool taken = ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+		struct stat mine = {}, there = {};
+		// Between open() and flock() the other program may have given the file its final name.
+		const bool same =
+		    !taken && ::fstat(lock_, &mine) == 0 && ::stat(temporary_path_.c_str(), &there) == 0 && mine.st_ino == there.st_ino;
+		if (same) return;
+		::close(lock_);
+		lock_ = -1;
+		if (taken) throw Error(path_ + ": another program is writing this file; wait for its end, or write to another folder");
+	}
+}
+
 AtomicFile::~AtomicFile()
 {
-	if (committed_ || temporary_path_ == path_) return;
-	stream_.close();
-	std::remove(temporary_path_.c_str());
+	if (!committed_ && temporary_path_ != path_)
+	{
+		stream_.close();
+		std::remove(temporary_path_.c_str());
+	}
+	if (lock_ >= 0) ::close(lock_);
 }
 
 void AtomicFile::commit()

@@ -36,7 +36,12 @@ std::string readText(const std::string& path)
 	if (empty) return {};
 	if (file) text << file.rdbuf();
 	if (!file || file.bad() || text.fail()) throw Error(path + ": cannot read this configuration file; check its name and permissions");
-	return text.str();
+	std::string content = text.str();
+	if (content.find('\0') != std::string::npos)
+		throw Error(path + ": this is no text; a configuration file has [sections] and key = value");
+	// Some editors begin UTF-8 files with a mark that is no character.
+	if (content.compare(0, 3, "\xEF\xBB\xBF") == 0) content.erase(0, 3);
+	return content;
 }
 
 /** What MRPT's parser passes over in silence: lines that are no assignment, a key given twice (the last would win), keys outside of a

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 namespace viwo
@@ -19,11 +20,19 @@ std::string findShare(const std::string& relative)
 	roots.emplace_back(VIWO_SHARE_IN_SOURCE);
 
 	std::string looked_at;
+	std::set<std::string> names;
 	for (const fs::path& root : roots)
 	{
 		const fs::path candidate = root / relative;
 		if (fs::exists(candidate, ignored)) return candidate.string();
+		for (const auto& entry : fs::directory_iterator(candidate.parent_path(), ignored)) names.insert(entry.path().filename().string());
 		looked_at += (looked_at.empty() ? "" : ", ") + root.string();
+	}
+	if (!names.empty())
+	{
+		std::string list;
+		for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+		throw Error("there is no shared file '" + relative + "'; there are: " + list);
 	}
 	throw Error("shared file '" + relative + "' not found in " + looked_at +
 	            "; set VIWO_SHARE to the folder share/viwo of the installation");

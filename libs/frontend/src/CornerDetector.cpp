@@ -41,7 +41,7 @@ size_t CornerDetector::cellOf(const cv::Point2f& pixel) const
 {
 	const int column = std::clamp(static_cast<int>(pixel.x) * options_.grid_columns / size_.width, 0, options_.grid_columns - 1);
 	const int row = std::clamp(static_cast<int>(pixel.y) * options_.grid_rows / size_.height, 0, options_.grid_rows - 1);
-	return static_cast<size_t>(row * options_.grid_columns + column);
+	return static_cast<size_t>(row) * static_cast<size_t>(options_.grid_columns) + static_cast<size_t>(column);
 }
 
 std::vector<CornerDetector::Candidate> CornerDetector::candidates(const cv::Mat& half_size_grey) const

@@ -277,6 +277,9 @@ FeatureTracker::FeatureTracker(const CameraModel& camera, const TrackerOptions& 
 		throw Error(
 		    "the camera has no calibration (size or focal length 0): record it in the images' cameraParams or give it in the "
 		    "configuration");
+	if (options.reference_px > 0 && options.reference_px % 2 == 0)
+		throw Error("[tracker] reference_px = " + std::to_string(options.reference_px) +
+		            ": the side of a patch with a middle pixel is odd");
 	impl_ = std::make_unique<Impl>(camera, options, mask);
 }
 FeatureTracker::~FeatureTracker() = default;

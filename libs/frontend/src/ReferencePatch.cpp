@@ -39,7 +39,8 @@ std::optional<ReferencePatch> ReferencePatch::at(const cv::Mat& grey, const cv::
 
 bool ReferencePatch::sample(const cv::Mat& grey, const Warp& warp, Eigen::VectorXf& values) const
 {
-	const float half = static_cast<float>(side_px_ / 2);
+	const int half_px = side_px_ / 2;
+	const auto half = static_cast<float>(half_px);
 	const float right = static_cast<float>(grey.cols - 2), bottom = static_cast<float>(grey.rows - 2);
 	const auto inside = [&](float x, float y)
 	{
@@ -78,9 +79,11 @@ bool ReferencePatch::setGradients(const cv::Mat& grey, const Eigen::Vector2f& ce
 	steepest_.resize(values_.size(), 6);
 	steepest_.col(0) = (right - left) / 2;
 	steepest_.col(1) = (down - up) / 2;
+	const int half_px = side_px_ / 2;
 	for (Eigen::Index i = 0; i < values_.size(); ++i)
 	{
-		const float x = static_cast<float>(i % side_px_ - side_px_ / 2), y = static_cast<float>(i / side_px_ - side_px_ / 2);
+		const Eigen::Index column = i % side_px_ - half_px, row = i / side_px_ - half_px;
+		const auto x = static_cast<float>(column), y = static_cast<float>(row);
 		steepest_.row(i).segment<2>(2) = x * steepest_.row(i).head<2>();
 		steepest_.row(i).segment<2>(4) = y * steepest_.row(i).head<2>();
 	}

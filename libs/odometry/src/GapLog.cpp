@@ -9,7 +9,7 @@ namespace viwo
 GapLog::GapLog(const OdometryOptions& options)
 {
 	const EstimatorOptions& e = options.estimator;
-	if (e.useCamera()) longest_s_[options.rawlog.cam_label] = OdometryOptions::blind_after_s;
+	if (e.useCamera()) longest_s_[options.rawlog.cam_label] = OdometryOptions::kBlindAfter_s;
 	if (e.useImu()) longest_s_[options.rawlog.imu_label] = e.window.max_imu_gap_s;
 	if (e.useWheels()) longest_s_[options.rawlog.odometry_label] = e.window.max_wheel_gap_s;
 }

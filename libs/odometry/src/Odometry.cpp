@@ -13,6 +13,12 @@
 
 namespace viwo
 {
+namespace
+{
+/** For the distance that the wheels have travelled: a hole in their stream counts no longer than this. */
+constexpr double kLongestWheelStep_s = 0.5;
+}  // namespace
+
 /** Brings the streams together: images wait until IMU and wheels reach up to them, then the front-end and the estimator run. What happens
  * depends on the order and the stamps of the observations alone, never on how fast they come.
  */
@@ -22,7 +28,7 @@ struct Odometry::Impl
 	OdometryOptions options;
 	std::optional<Calibration> calibration;
 	ObservationAdapter adapter;
-	StampGate gate{OdometryOptions::max_stamp_jump_s, true};
+	StampGate gate{OdometryOptions::kMaxStampJump_s, true};
 	mrpt::obs::CObservationImage::Ptr first_image;
 	mrpt::obs::CObservationIMU::Ptr first_imu;
 
@@ -31,8 +37,10 @@ struct Odometry::Impl
 	std::vector<ImuSample> early_imu;  //!< before the calibration was complete
 	std::vector<WheelSample> early_wheels;
 	std::deque<ImageRef> images;  //!< not yet processed
-	StreamClock stream{OdometryOptions::longest_blind_s};
+	StreamClock stream{OdometryOptions::kLongestBlind_s};
 	int64_t latest_imu_ns = 0, latest_wheels_ns = 0;
+	std::optional<WheelSample> last_wheels;
+	double wheel_travel_m = 0;  //!< since the first pose
 	std::optional<int64_t> last_frame_ns, last_image_ns, first_sample_ns, first_frame_ns;
 
 	FrameEstimate latest;
@@ -112,6 +120,12 @@ void Odometry::Impl::take(const ImuSample& s)
 void Odometry::Impl::take(const WheelSample& s)
 {
 	latest_wheels_ns = s.t_ns;
+	if (last_wheels && !trajectory.empty())
+	{
+		const double speed_m_s = 0.25 * std::abs(last_wheels->v_left_m_s + last_wheels->v_right_m_s + s.v_left_m_s + s.v_right_m_s);
+		wheel_travel_m += speed_m_s * std::min(secondsBetween(last_wheels->t_ns, s.t_ns), kLongestWheelStep_s);
+	}
+	last_wheels = s;
 	stream.advance(s.t_ns);
 	if (!first_sample_ns) first_sample_ns = s.t_ns;
 	if (estimator)
@@ -158,7 +172,7 @@ bool Odometry::Impl::covered(int64_t t_ns) const
 {
 	const bool imu = !est().useImu() || latest_imu_ns >= t_ns;
 	const bool wheels = !est().useWheels() || latest_wheels_ns >= t_ns;
-	return (imu && wheels) || secondsBetween(t_ns, stream.now_ns()) > OdometryOptions::max_wait_s;
+	return (imu && wheels) || secondsBetween(t_ns, stream.now_ns()) > OdometryOptions::kMaxWait_s;
 }
 
 std::optional<int64_t> Odometry::Impl::blindFrameDue()
@@ -166,9 +180,9 @@ std::optional<int64_t> Odometry::Impl::blindFrameDue()
 	if (!images.empty()) return std::nullopt;
 	const std::optional<int64_t> since = last_frame_ns ? last_frame_ns : est().useCamera() ? std::nullopt : first_sample_ns;
 	if (!since) return std::nullopt;
-	const bool camera_is_there = last_image_ns && secondsBetween(*last_image_ns, stream.now_ns()) <= OdometryOptions::blind_after_s;
-	if (camera_is_there || secondsBetween(*since, stream.now_ns()) <= OdometryOptions::blind_after_s) return std::nullopt;
-	return stream.pastHoles(*since + nanoseconds(OdometryOptions::blind_period_s));
+	const bool camera_is_there = last_image_ns && secondsBetween(*last_image_ns, stream.now_ns()) <= OdometryOptions::kBlindAfter_s;
+	if (camera_is_there || secondsBetween(*since, stream.now_ns()) <= OdometryOptions::kBlindAfter_s) return std::nullopt;
+	return stream.pastHoles(*since + nanoseconds(OdometryOptions::kBlindPeriod_s));
 }
 
 void Odometry::Impl::drain(bool at_end)
@@ -297,6 +311,10 @@ void Odometry::stopWhen(std::function<bool()> asked)
 const FrameEstimate& Odometry::latest() const
 {
 	return impl_->latest;
+}
+double Odometry::wheelTravel_m() const
+{
+	return impl_->wheel_travel_m;
 }
 const Trajectory& Odometry::trajectory() const
 {

@@ -183,7 +183,7 @@ class Run
 		for (const auto& [label, counts] : odometry_.observationCounts())
 			for (const auto& [reason, count] : counts.rejected) add(label, count, reason);
 		std::string text;
-		for (const auto& [label, list] : reasons) text += (text.empty() ? "" : "; ") + label + list;
+		for (const auto& [label, list] : reasons) text.append(text.empty() ? "" : "; ").append(label).append(list);
 		return text;
 	}
 
@@ -208,6 +208,8 @@ class Run
 		result_.wall_time_s = std::chrono::duration<double>(Clock::now() - begin_).count();
 		result_.duration_s = result_.frames > 0 ? secondsBetween(odometry_.firstFrame_ns(), last_frame_ns_) : 0;
 		result_.path_length_m = outputs_.pathLength_m();
+		result_.wheel_travel_m = odometry_.wheelTravel_m();
+		result_.doubt = doubt();
 		result_.final_status = failed ? "failed" : toString(odometry_.status());
 		result_.summary_path = options_.output_dir + "/summary.json";
 		if (const std::string left_out = leftOut(); !left_out.empty())
@@ -218,6 +220,22 @@ class Run
 		            "Effective configuration of viwo-odometry " VIWO_VERSION ", --mode " +
 		                modeNames()[static_cast<size_t>(effective.estimator.mode)]);
 		writeSummary(result_.summary_path, options_, result_, odometry_, outputs_, reader_.counts(), minutes_, gaps_);
+	}
+
+	/** Wrong mounting, intrinsics or wheel settings may give a trajectory that is at one with itself; only the wheels tell. */
+	std::string doubt() const
+	{
+		constexpr double kFactor = 1.25, kSlack_m = 0.5;
+		const double path_m = result_.path_length_m, wheels_m = result_.wheel_travel_m;
+		const bool judged = options_.odometry.estimator.useWheels() && options_.pose_frame == PoseFrame::O && wheels_m > 0;
+		if (!judged || (path_m <= kFactor * wheels_m + kSlack_m && wheels_m <= kFactor * path_m + kSlack_m)) return {};
+		char text[256];
+		std::snprintf(
+		    text, sizeof text,
+		    ": the path is %.1f m, but the wheels rolled %.1f m: the result cannot be trusted; check sensorPose and cameraPose, the "
+		    "camera's calibration, and the wheels' settings",
+		    path_m, wheels_m);
+		return options_.rawlog + text;
 	}
 
 	std::string noPose() const

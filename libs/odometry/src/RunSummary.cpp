@@ -139,6 +139,8 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["keyframes"] = n.keyframes;
 	j["duration_s"] = result.duration_s;
 	j["path_length_m"] = result.path_length_m;
+	j["wheel_travel_m"] = result.wheel_travel_m;
+	j["doubt"] = result.doubt;
 	j["first_pose_s"] = outputs.poses() > 0 ? Json(secondsBetween(odometry.firstFrame_ns(), outputs.firstPose_ns())) : Json();
 	j["first_pose"] = outputs.poses() > 0 ? firstPoseJson(outputs.first(), *odometry.calibration()) : Json();
 	j["initialization_time_s"] = timeToStatus(odometry, Status::tracking);

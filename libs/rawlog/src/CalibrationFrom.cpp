@@ -8,7 +8,7 @@ namespace
 {
 Pose3 finitePose(const mrpt::poses::CPose3D& T_Ox, const std::string& label)
 {
-	const Pose3 pose = fromMrpt(T_Ox);
+	Pose3 pose = fromMrpt(T_Ox);
 	if (!pose.p.allFinite() || !pose.R.coeffs().allFinite())
 		throw Error("label " + label + ": the pose of the sensor on the robot is not finite; correct it with rawlog-edit --sensors-pose");
 	return pose;

@@ -1,5 +1,6 @@
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
@@ -118,6 +119,14 @@ CameraModel fromMrpt(const mrpt::img::TCamera& camera)
 	if (!is_finite || fx < 0 || fy < 0) throw Error("the camera's calibration has a negative or non-finite value");
 	if (camera.ncols == 0 || camera.nrows == 0 || camera.ncols > 100000 || camera.nrows > 100000)
 		throw Error("the camera's calibration gives no sensible image size");
+	// A calibration that was made at another resolution, with its size corrected and the rest not.
+	const double width = camera.ncols, height = camera.nrows;
+	if (camera.cx() < 0 || camera.cx() > width || camera.cy() < 0 || camera.cy() > height || fx < 0.1 * width || fx > 20 * width ||
+	    fy / fx < 0.5 || fy / fx > 2)
+		throw Error("the camera's calibration (fx " + fixed(fx, 1) + ", fy " + fixed(fy, 1) + ", cx " + fixed(camera.cx(), 1) + ", cy " +
+		            fixed(camera.cy(), 1) + ") is not one of images of " + std::to_string(camera.ncols) + " x " +
+		            std::to_string(camera.nrows) +
+		            " pixels: the principal point must lie inside, fx and fy be alike, of some tenths to some times the width");
 
 	const auto model = [&](CameraModel::Distortion distortion, const std::array<double, 5>& coefficients)
 	{

@@ -23,7 +23,7 @@ Eigen::MatrixXd reducedInformation(const Scene& scene)
 		for (const Observation& o : point.track.observations)
 		{
 			const Linearised L = linearise(*point.X, scene.T_r_ck[static_cast<size_t>(o.frame)].value(), o.bearing);
-			const Eigen::Index at = 6 * o.frame;
+			const Eigen::Index at = Eigen::Index{6} * o.frame;
 			H.block<6, 6>(at, at) += L.camera.transpose() * L.camera;
 			W.middleRows<6>(at) += L.camera.transpose() * L.point;
 			H_point += L.point.transpose() * L.point;
@@ -59,7 +59,7 @@ Eigen::MatrixXd intervalCovariance(const Scene& scene, double sigma_rad)
 	// The gauge, held where adjust() holds it: the reference's pose and the scale frame's distance. A stiff prior on gauge directions
 	// changes nothing else.
 	const double stiff = H.diagonal().maxCoeff();
-	const Eigen::Index r = 6 * scene.reference, s = 6 * scene.scale_frame;
+	const Eigen::Index r = Eigen::Index{6} * scene.reference, s = Eigen::Index{6} * scene.scale_frame;
 	H.block<6, 6>(r, r) += stiff * Eigen::Matrix<double, 6, 6>::Identity();
 	const Eigen::Vector3d u = scene.T_r_ck[static_cast<size_t>(scene.scale_frame)].value().p.normalized();
 	H.block<3, 3>(s, s) += stiff * u * u.transpose();

@@ -14,6 +14,9 @@ using Kind = RouteSegment::Kind;
 /** Between nodes the speeds are analytic, so five Gauss points over this span leave less than rounding. */
 constexpr double kNodeSpan_s = 0.05;
 
+/** A day, as that of duration_s. */
+constexpr double kLongest_s = 86400;
+
 bool translates(Kind kind)
 {
 	return kind == Kind::straight || kind == Kind::arc;
@@ -182,6 +185,9 @@ void PlanarPath::append(Leg leg)
 	leg.begin_s = end_s_;
 	leg.yaw_begin_rad = end_yaw_rad_;
 	const double ramp_end_s = end_s_ + ramp.up_s, hold_end_s = ramp_end_s + ramp.hold_s, leg_end_s = end_s_ + ramp.duration_s();
+	if (leg_end_s > kLongest_s)
+		throw Error("[route] segments: the route takes " + std::to_string(std::llround(leg_end_s)) + " s and more; at most " +
+		            std::to_string(std::llround(kLongest_s)) + " s are simulated");
 	integratePlace(leg, end_s_, ramp_end_s);
 	integratePlace(leg, ramp_end_s, hold_end_s);
 	integratePlace(leg, hold_end_s, leg_end_s);

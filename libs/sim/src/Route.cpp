@@ -81,7 +81,7 @@ std::string withoutRepetitions(std::string text)
 			fail(head, "expected 'N x (segments)', N from 1 to 1000");
 		const std::string body = text.substr(open + 1, close - open - 1);
 		std::string repeated = body;
-		for (int i = 1; i < count; ++i) repeated += "," + body;
+		for (int i = 1; i < count; ++i) repeated.append(",").append(body);
 		text = text.substr(0, begin) + repeated + text.substr(close + 1);
 	}
 	return text;

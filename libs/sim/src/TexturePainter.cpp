@@ -171,8 +171,8 @@ Canvas notices(const Subject& s)
 	for (int i = 0; i < columns * rows; ++i)
 	{
 		if (brush.random(0, 1) < 0.2) continue;
-		const double u = (i % columns + 0.5) * w / columns + brush.random(-0.02, 0.02),
-		             v = (i / columns + 0.5) * h / rows + brush.random(-0.02, 0.02);
+		const int column = i % columns, row = i / columns;
+		const double u = (column + 0.5) * w / columns + brush.random(-0.02, 0.02), v = (row + 0.5) * h / rows + brush.random(-0.02, 0.02);
 		const bool portrait = brush.random(0, 1) < 0.8;
 		const double half_w = portrait ? 0.105 : 0.12, half_h = portrait ? 0.1485 : 0.09;
 		brush.rectangle(u - half_w, v - half_h, u + half_w, v + half_h, brush.random(0.7, 0.92));

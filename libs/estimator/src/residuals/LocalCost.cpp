@@ -88,7 +88,7 @@ bool LocalCost::Evaluate(double const* const* x, double* residuals, double** jac
 		if (jacobians[i]) local[i] = shapes_[i].kind == BlockKind::pose ? scratch.take(rows * 6) : jacobians[i];
 
 	const bool valid = linearize(x, residuals, jacobians ? local.data() : nullptr);
-	if (!valid) std::fill_n(residuals, rows, invalid_residual);
+	if (!valid) std::fill_n(residuals, rows, kInvalidResidual);
 	for (size_t i = 0; i < local.size(); ++i)
 	{
 		if (!jacobians[i]) continue;

@@ -49,14 +49,14 @@ class LocalCost : public ceres::CostFunction
 	 */
 	bool linearize(double const* const* x, double* residuals, double** local_jacobians) const;
 
-	/** As linearize(), in ambient coordinates. Where the residual is not defined it is the constant invalid_residual with zero Jacobians,
+	/** As linearize(), in ambient coordinates. Where the residual is not defined it is the constant kInvalidResidual with zero Jacobians,
 	 *  and the result is true all the same: Ceres gives up a whole solve when a residual block fails at its starting point, while a step
 	 * into the undefined region now costs more than any it could save and is rejected.
 	 */
 	bool Evaluate(double const* const* x, double* residuals, double** jacobians) const final;
 
 	/** In standard deviations, as all residuals: above what any defined residual of a sane problem reaches. */
-	static constexpr double invalid_residual = 1e4;
+	static constexpr double kInvalidResidual = 1e4;
 
 	const std::vector<BlockShape>& shapes() const { return shapes_; }
 

@@ -27,6 +27,7 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body);
 /** @name Checks of an option's value that CLI11 lacks: its ranges let "nan" pass, and name the largest double in 300 digits. @{ */
 CLI::Validator nonNegative();  //!< a finite number, not below 0
 CLI::Validator positive();     //!< a finite number above 0
+CLI::Validator seed();         //!< a whole number of at most 18 digits
 CLI::Validator notEmpty();
 /** @} */
 

@@ -12,7 +12,7 @@ namespace viwo
 class AtomicFile
 {
    public:
-	/** @throws Error when the folder does not exist or cannot be written. */
+	/** @throws Error when the folder does not exist or cannot be written, or while another program is writing the same file. */
 	explicit AtomicFile(const std::string& path);
 	~AtomicFile();
 	AtomicFile(const AtomicFile&) = delete;
@@ -24,7 +24,10 @@ class AtomicFile
 	void commit();
 
    private:
+	void lock();
+
 	std::string path_, temporary_path_;
+	int lock_ = -1;  //!< of the temporary file, until it has its final name
 	std::ofstream stream_;
 	bool committed_ = false;
 };

@@ -41,7 +41,7 @@ class Odometry : public mrpt::system::COutputLogger
 	/** No more observations: processes the images that still wait for samples. */
 	void finish();
 
-	/** Asked before every frame; once it says true, no more are made (one observation may make many: see OdometryOptions::longest_blind_s).
+	/** Asked before every frame; once it says true, no more are made (one observation may make many: see OdometryOptions::kLongestBlind_s).
 	 */
 	void stopWhen(std::function<bool()> asked);
 
@@ -50,6 +50,8 @@ class Odometry : public mrpt::system::COutputLogger
 
 	/** One pose T_WO a frame, each as it was when first estimated. */
 	const Trajectory& trajectory() const;
+	/** How far the wheels, of nominal size, have rolled since the first pose, whether forwards or backwards. */
+	double wheelTravel_m() const;
 
 	std::vector<LandmarkPoint> landmarks() const;
 	/** Key frames of the estimator's window, oldest first. */

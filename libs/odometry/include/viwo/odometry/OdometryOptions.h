@@ -16,15 +16,15 @@ struct OdometryOptions
 	TrackerOptions tracker;
 	EstimatorOptions estimator;
 
-	/** Without images for this long, poses are given from IMU and wheels at blind_period_s. */
-	static constexpr double blind_after_s = 0.35;
-	static constexpr double blind_period_s = 0.1;
+	/** Without images for this long, poses are given from IMU and wheels at kBlindPeriod_s. */
+	static constexpr double kBlindAfter_s = 0.35;
+	static constexpr double kBlindPeriod_s = 0.1;
 	/** Where no sensor at all has data, poses without any are given for this long at most. */
-	static constexpr double longest_blind_s = 10;
+	static constexpr double kLongestBlind_s = 10;
 	/** An observation whose stamp is farther than this from the stream is left out; see StampGate. */
-	static constexpr double max_stamp_jump_s = 60;
+	static constexpr double kMaxStampJump_s = 60;
 	/** How long an image waits for IMU and wheel samples that reach up to it, by the log's clock. */
-	static constexpr double max_wait_s = 0.3;
+	static constexpr double kMaxWait_s = 0.3;
 
 	/** The sections [rawlog], [tracker], [factors], [noise], [priors], [window], [initializer]. */
 	std::vector<OptionsSection> sections();

@@ -34,11 +34,14 @@ struct OdometryRunResult
 	int frames = 0, poses = 0;
 	double duration_s = 0;  //!< of the frames
 	double path_length_m = 0;
+	double wheel_travel_m = 0;  //!< since the first pose; 0 where wheels are not used
 	double wall_time_s = 0;
 	std::string final_status;
 	bool interrupted = false;
 	/** One line on observations that could not be used (not finite, stamps that do not increase, ...); empty if all could. */
 	std::string left_out;
+	/** One line where the result contradicts the wheels as no robot could; empty if it does not. */
+	std::string doubt;
 	std::string summary_path;
 };
 
