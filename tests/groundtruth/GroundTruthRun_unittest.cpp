@@ -1,11 +1,6 @@
-#include "ExpectError.h"
-#include "RoomLog.h"
-#include "RunProgram.h"
+#include "RoomRun.h"
 
-#include <viwo/core/Trajectory.h>
-#include <viwo/groundtruth/GroundTruthRun.h>
-
-#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <iostream>
@@ -16,35 +11,14 @@ using namespace viwo::testing;
 
 namespace
 {
-GroundTruthRunOptions optionsFor(const TempFolder& folder, const std::string& out = "out")
+nlohmann::json summaryOf(const TempFolder& folder, const std::string& out = "out")
 {
-	GroundTruthRunOptions options;
-	options.rawlogs = {folder.file("x.rawlog")};
-	options.output_dir = folder.file(out);
-	return options;
+	return nlohmann::json::parse(readFile(folder.file(out + "/summary.json")));
 }
 
-struct Errors
+void expectSameFiles(const TempFolder& folder, const std::string& a, const std::string& b, std::initializer_list<const char*> names)
 {
-	double rms_m = 0, max_m = 0;
-};
-
-/** Against the truth, both seen from the first pose. */
-Errors errorsOf(const TempFolder& folder, const RoomLog& log, const std::string& out = "out")
-{
-	const Trajectory trajectory = Trajectory::loadTum(folder.file(out + "/trajectory.tum"));
-	EXPECT_EQ(trajectory.size(), log.truth.size());
-	Errors errors;
-	const auto pose2 = [](const Pose3& T) { return Pose2(T.p.x(), T.p.y(), yawOf(T.R)); };
-	for (size_t i = 0; i < log.truth.size(); ++i)
-	{
-		const Pose2 estimate = between(pose2(trajectory.poses()[0].T), pose2(trajectory.poses()[i].T));
-		const double e = (estimate.p - between(log.truth[0], log.truth[i]).p).norm();
-		errors.rms_m += e * e / static_cast<double>(log.truth.size());
-		errors.max_m = std::max(errors.max_m, e);
-	}
-	errors.rms_m = std::sqrt(errors.rms_m);
-	return errors;
+	for (const char* name : names) EXPECT_EQ(readFile(folder.file(a + "/" + name)), readFile(folder.file(b + "/" + name))) << name;
 }
 }  // namespace
 
@@ -55,7 +29,7 @@ TEST(GroundTruthRun, TwiceAroundTheBlock)
 	log.write(folder.file("x.rawlog"));
 	GroundTruthRunOptions options = optionsFor(folder);
 	const GroundTruthRunResult result = runGroundTruth(options);
-	const Errors e = errorsOf(folder, log);
+	const RoomErrors e = errorsOf(folder, log);
 	std::cout << "[measured] " << result.loops_accepted << " loops, rms " << e.rms_m << " m, max " << e.max_m << " m\n";
 	EXPECT_GT(result.loops_accepted, 2u);
 	EXPECT_LT(e.rms_m, 0.04);
@@ -64,12 +38,15 @@ TEST(GroundTruthRun, TwiceAroundTheBlock)
 	                         "map.png", "map.simplemap", "map.gridmap.gz", "summary.json", "config.ini"})
 		EXPECT_GT(std::filesystem::file_size(folder.file(std::string("out/") + name)), 0u) << name;
 
+	EXPECT_EQ(e.poses, log.truth.size());
+
 	// The same bytes with two threads.
 	options = optionsFor(folder, "two");
 	options.threads = 2;
 	runGroundTruth(options);
-	for (const char* name : {"trajectory.tum", "trajectory_covariance.csv", "graph.g2o", "map.pgm", "map.png", "map.simplemap"})
-		EXPECT_EQ(readFile(folder.file(std::string("out/") + name)), readFile(folder.file(std::string("two/") + name))) << name;
+	expectSameFiles(folder, "out", "two",
+	                {"trajectory.tum", "trajectory_covariance.csv", "graph.g2o", "graph_stamps.csv", "map.yaml", "map.pgm", "map.png",
+	                 "map.simplemap", "map.gridmap.gz", "config.ini"});
 
 	// Another program reads the map.
 	const ProgramResult read = runProgram("/usr/bin/ros-map-yaml2mrpt", {"-i", folder.file("out/map.yaml"), "-d", folder.path(), "-w"});
@@ -85,7 +62,7 @@ TEST(GroundTruthRun, AWrongLoopByHandIsRejected)
 	options.extra_loops = {{20, 140, 0, 0, 0}, {60, 250, 1, 0, 1.5}};
 	const GroundTruthRunResult result = runGroundTruth(options);
 	const GroundTruthRunResult clean = runGroundTruth(optionsFor(folder, "clean"));
-	const Errors with = errorsOf(folder, log), without = errorsOf(folder, log, "clean");
+	const RoomErrors with = errorsOf(folder, log), without = errorsOf(folder, log, "clean");
 	std::cout << "[measured] rms with wrong loops " << with.rms_m << " m, without " << without.rms_m << " m\n";
 	EXPECT_EQ(clean.loops_rejected, 0u);
 	EXPECT_EQ(result.loops_rejected, 2u);
@@ -99,79 +76,95 @@ TEST(GroundTruthRun, WithoutOdometry)
 	log.with_odometry = false;
 	log.write(folder.file("x.rawlog"));
 	const GroundTruthRunResult result = runGroundTruth(optionsFor(folder));
-	const Errors e = errorsOf(folder, log);
+	const RoomErrors e = errorsOf(folder, log);
 	std::cout << "[measured] rms " << e.rms_m << " m\n";
 	EXPECT_LT(e.rms_m, 0.05);
 	ASSERT_FALSE(result.notes.empty());
 	EXPECT_NE(result.notes.back().find("constant velocity"), std::string::npos);
 }
 
-TEST(GroundTruthRun, SurvivesBadSensors)
-{
-	struct Case
-	{
-		const char* name;
-		double bound_m;
-		std::function<void(RoomLog&)> make;
-	};
-	const float nan = std::numeric_limits<float>::quiet_NaN();
-	const std::vector<Case> cases{
-	    {"odometry jumps", 0.05,
-	     [](RoomLog& log)
-	     {
-		     log.disturb = [](int i, std::vector<float>&, Pose2& odometry)
-		     {
-			     if (i == 200) odometry = odometry * Pose2(0.5, 0, 30 * M_PI / 180);
-		     };
-	     }},
-	    {"5 s without scans", 0.15, [](RoomLog& log) { log.has_scan = [](int i) { return i < 150 || i >= 200; }; }},
-	    {"blind scans", 0.15,
-	     [](RoomLog& log)
-	     {
-		     log.disturb = [](int i, std::vector<float>& r, Pose2&)
-		     {
-			     if (i >= 100 && i < 120) r.assign(r.size(), 0.f);
-		     };
-	     }},
-	    {"NaN ranges", 0.05,
-	     [nan](RoomLog& log)
-	     {
-		     log.disturb = [nan](int i, std::vector<float>& r, Pose2&)
-		     {
-			     for (size_t k = static_cast<size_t>(i % 7); k < r.size(); k += 7) r[k] = nan;
-		     };
-	     }},
-	};
-	for (const Case& c : cases)
-	{
-		SCOPED_TRACE(c.name);
-		const TempFolder folder;
-		RoomLog log;
-		c.make(log);
-		log.write(folder.file("x.rawlog"));
-		const GroundTruthRunResult result = runGroundTruth(optionsFor(folder));
-		const Errors e = errorsOf(folder, log);
-		std::cout << "[measured] " << c.name << ": rms " << e.rms_m << " m, max " << e.max_m << " m, " << result.odometry_only
-		          << " by odometry only\n";
-		EXPECT_LT(e.rms_m, c.bound_m);
-		EXPECT_GE(result.odometry_only, std::string(c.name) == "blind scans" ? 20u : 0u);
-	}
-}
-
-TEST(GroundTruthRun, SaysWhatIsWrongInOneLine)
+TEST(GroundTruthRun, ScansAloneAreComparedWithOdometryToo)
 {
 	const TempFolder folder;
-	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"x.rawlog", "no such file"});
 	RoomLog log;
-	log.scans = 5;
-	log.beams = 1;
 	log.write(folder.file("x.rawlog"));
-	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"x.rawlog", "no usable scans", "--scan-label"});
-	log.beams = 181;
-	log.disturb = [](int, std::vector<float>& r, Pose2&) { r.assign(r.size(), 0.f); };
+	GroundTruthRunOptions options = optionsFor(folder);
+	options.options.graph.odometry_edges = false;
+	runGroundTruth(options);
+	const RoomErrors e = errorsOf(folder, log);
+	const auto json = summaryOf(folder);
+	std::cout << "[measured] rms " << e.rms_m << " m; against the graph with odometry " << json["against_odometry_edges"] << "\n";
+	EXPECT_LT(e.rms_m, 0.05);
+	EXPECT_EQ(json["odometry_edges"], false);
+	EXPECT_GT(json["against_odometry_edges"]["max_m"], 0.0);
+	EXPECT_LT(json["against_odometry_edges"]["mean_m"], 0.03);
+
+	runGroundTruth(optionsFor(folder, "with"));
+	EXPECT_FALSE(summaryOf(folder, "with").contains("against_odometry_edges"));
+	EXPECT_NE(readFile(folder.file("out/trajectory.tum")), readFile(folder.file("with/trajectory.tum")));
+}
+
+TEST(GroundTruthRun, AlignsWallsWithTheAxes)
+{
+	const TempFolder folder;
+	RoomLog log;
+	log.scans = 300;
+	log.start_m = 9;  // in the first bend, between two directions of walls
 	log.write(folder.file("x.rawlog"));
-	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"x.rawlog", "none of the 5 scans"});
-	EXPECT_FALSE(std::filesystem::exists(folder.file("out/trajectory.tum")));
+	const double first_yaw = log.truth.begin()->second.yaw;
+	ASSERT_GT(std::abs(std::remainder(first_yaw, M_PI / 2)), 0.3);
+	GroundTruthRunOptions options = optionsFor(folder);
+	options.align_axes = true;
+	runGroundTruth(options);
+	// The true walls lie along the axes: so each yaw is the true one, up to quarters.
+	double worst = 0;
+	const Trajectory aligned = Trajectory::loadTum(folder.file("out/trajectory.tum"));
+	for (const StampedPose& pose : aligned.poses())
+		worst = std::max(worst, std::abs(std::remainder(yawOf(pose.T.R) - log.truth.at(pose.t_ns).yaw, M_PI / 2)));
+	std::cout << "[measured] yaw against the axes of the walls: at most " << worst * 180 / M_PI << " deg\n";
+	EXPECT_LT(worst, 1.0 * M_PI / 180);
+	EXPECT_LT(errorsOf(folder, log).rms_m, 0.05);
+
+	runGroundTruth(optionsFor(folder, "as_driven"));
+	const Trajectory as_driven = Trajectory::loadTum(folder.file("as_driven/trajectory.tum"));
+	EXPECT_NEAR(yawOf(as_driven.poses()[0].T.R), 0, 0.01) << "without the option the first pose is the origin";
+}
+
+TEST(GroundTruthRun, SeveralRawlogsAreOneSession)
+{
+	const TempFolder folder;
+	RoomLog log;
+	log.scans = 200;
+	log.write(folder.file("x.rawlog"));
+	runGroundTruth(optionsFor(folder));
+	log.second_from = 90;
+	log.second_path = folder.file("b.rawlog");
+	log.write(folder.file("a.rawlog"));
+	GroundTruthRunOptions options = optionsFor(folder, "parts");
+	options.rawlogs = {folder.file("a.rawlog"), folder.file("b.rawlog")};
+	runGroundTruth(options);
+	EXPECT_EQ(summaryOf(folder, "parts")["scans"], 200);
+	expectSameFiles(folder, "out", "parts", {"trajectory.tum", "trajectory_covariance.csv", "graph.g2o", "map.pgm"});
+}
+
+TEST(GroundTruthRun, HoldsScansOut)
+{
+	const TempFolder folder;
+	RoomLog log;
+	log.write(folder.file("x.rawlog"));
+	GroundTruthRunOptions options = optionsFor(folder);
+	options.holdout = true;
+	runGroundTruth(options);
+	const auto holdout = summaryOf(folder)["holdout"];
+	std::cout << "[measured] hold-out " << holdout << "\n";
+	EXPECT_GT(holdout["scans"], 50);
+	EXPECT_LT(holdout["median_m"], 0.01);
+	EXPECT_GT(holdout["p95_m"], holdout["median_m"]);
+	// The ninth of each ten is no key scan.
+	std::istringstream stamps(readFile(folder.file("out/graph_stamps.csv")));
+	std::string line;
+	std::getline(stamps, line);
+	while (std::getline(stamps, line)) EXPECT_NE(std::stoul(line) % 10, 9u) << line;
 }
 
 TEST(GroundTruthProgram, HelpAndUsage)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -54,9 +56,13 @@ struct RoomLog
 	/** Called for each scan before it is written; may change it, or the odometry that goes with it. */
 	std::function<void(int, std::vector<float>&, gt::Pose2&)> disturb = [](int, std::vector<float>&, gt::Pose2&) {};
 	std::function<bool(int)> has_scan = [](int) { return true; };
+	std::function<int64_t(int)> stamp_ns = [](int i) { return kStart_ns + i * kPeriod_ns; };
+	double start_m = 0;   //!< along the way
+	int second_from = 0;  //!< scans from this one on go to a second rawlog; 0: all to one
+	std::string second_path;
 
 	static constexpr int64_t kStart_ns = 1'600'000'000'000'000'000, kPeriod_ns = 100'000'000;
-	std::vector<gt::Pose2> truth;  //!< of the scans written
+	std::map<int64_t, gt::Pose2> truth;  //!< of the scans written, by their stamps
 
 	/** Twice around the block along a rectangle with rounded corners. */
 	static gt::Pose2 poseAt(double s)
@@ -99,11 +105,16 @@ struct RoomLog
 		truth.clear();
 		std::mt19937_64 random(seed);
 		std::normal_distribution<double> normal;
-		RawlogWriter writer(path);
+		auto writer = std::make_unique<RawlogWriter>(path);
 		gt::Pose2 odometry;
 		for (int i = 0; i < scans; ++i)
 		{
-			const gt::Pose2 T = poseAt(0.12 * i), last = poseAt(0.12 * std::max(0, i - 1));
+			if (second_from > 0 && i == second_from)
+			{
+				writer->close();
+				writer = std::make_unique<RawlogWriter>(second_path);
+			}
+			const gt::Pose2 T = poseAt(start_m + 0.12 * i), last = poseAt(start_m + 0.12 * std::max(0, i - 1));
 			const gt::Pose2 step = between(last, T);
 			odometry = odometry * gt::Pose2(step.p * distance_scale, step.yaw * turn_scale + 2e-4 * normal(random));
 			std::vector<float> ranges;
@@ -113,13 +124,21 @@ struct RoomLog
 				ranges.push_back(range(T, angle) + static_cast<float>(noise_m * normal(random)));
 			}
 			disturb(i, ranges, odometry);
-			const int64_t t_ns = kStart_ns + i * kPeriod_ns;
-			if (with_odometry) writer.write(makeOdometry(t_ns, {}, {}, odometry.p.x(), odometry.p.y(), odometry.yaw));
+			const int64_t t_ns = stamp_ns(i);
+			if (with_odometry) writer->write(makeOdometry(t_ns, {}, {}, odometry.p.x(), odometry.p.y(), odometry.yaw));
 			if (!has_scan(i)) continue;
-			writer.write(makeScan(t_ns, ranges, M_PI, 30, Pose3(), "LIDAR"));
-			truth.push_back(T);
+			auto scan = makeScan(t_ns, ranges, M_PI, 30, Pose3(), "LIDAR");
+			// As a driver writes them that does not look at its numbers.
+			for (size_t k = 0; k < ranges.size(); ++k)
+				if (std::isnan(ranges[k]))
+				{
+					scan.setScanRange(k, ranges[k]);
+					scan.setScanRangeValidity(k, true);
+				}
+			writer->write(scan);
+			truth.emplace(t_ns, T);
 		}
-		writer.close();
+		writer->close();
 	}
 };
 }  // namespace viwo::testing

@@ -3,9 +3,11 @@
 #include "TrajectoryFiles.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Scalars.h>
 #include <viwo/groundtruth/GroundTruthRun.h>
 
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 
@@ -13,6 +15,8 @@ namespace viwo::gt
 {
 namespace
 {
+constexpr double kJump_m = 0.2, kJump_deg = 10;
+
 void makeFolder(const std::string& dir)
 {
 	std::error_code error;
@@ -27,10 +31,34 @@ WithoutOdometry compare(const std::vector<FinalPose>& a, const std::vector<Final
 	{
 		const Pose2 d = between(a[i].T, b[i].T);
 		result.mean_m += d.p.norm() / static_cast<double>(a.size());
-		result.mean_deg += std::abs(d.yaw) * 180 / M_PI / static_cast<double>(a.size());
+		result.mean_deg += std::abs(d.yaw) / kDegree / static_cast<double>(a.size());
 		result.max_m = std::max(result.max_m, d.p.norm());
 	}
 	return result;
+}
+
+/** Slip, a push, a reset: odometry tells of another motion than the scans do. */
+void noteContradictions(const Session& session, const Solution& solution, std::vector<std::string>& notes)
+{
+	size_t count = 0;
+	double worst_m = 0, worst_deg = 0;
+	for (size_t i = 1; i < solution.poses.size(); ++i)
+	{
+		const FinalPose &a = solution.poses[i - 1], &b = solution.poses[i];
+		const auto &from = session.scans[i - 1].odometry, &to = session.scans[i].odometry;
+		if (!from || !to || a.flag != PoseFlag::good || b.flag != PoseFlag::good) continue;
+		const Pose2 d = between(between(*from, *to), between(a.T, b.T));
+		const double metres = d.p.norm(), degrees = std::abs(d.yaw) / kDegree;
+		if (metres < kJump_m && degrees < kJump_deg) continue;
+		++count;
+		worst_m = std::max(worst_m, metres);
+		worst_deg = std::max(worst_deg, degrees);
+	}
+	if (count == 0) return;
+	char text[160];
+	std::snprintf(text, sizeof text, "odometry jumped %zu times against the scans, by up to %.2f m and %.0f deg: the scans were believed",
+	              count, worst_m, worst_deg);
+	notes.push_back(text);
 }
 
 void count(const Session& session, const Solution& solution, GroundTruthRunResult& result)
@@ -40,6 +68,7 @@ void count(const Session& session, const Solution& solution, GroundTruthRunResul
 	result.loops_accepted = solution.loops.accepted;
 	result.loops_rejected = solution.loops.rejected;
 	result.notes = session.notes;
+	noteContradictions(session, solution, result.notes);
 	for (size_t i = 0; i < solution.poses.size(); ++i)
 	{
 		const FinalPose& pose = solution.poses[i];

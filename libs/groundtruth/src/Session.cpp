@@ -13,6 +13,8 @@
 #include <viwo/rawlog/RawlogReader.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -22,7 +24,7 @@ namespace
 {
 using mrpt::obs::CObservation2DRangeScan;
 
-constexpr double kOdometryGap_s = 1.0;
+constexpr double kOdometryGap_s = 1.0, kScanGap_s = 1.0;
 
 struct StampedPose2
 {
@@ -36,7 +38,7 @@ struct Contents
 	std::map<std::string, std::vector<Scan>> scans;
 	std::vector<StampedPose2> odometry;
 	InertialYaw inertial;
-	size_t bad_scans = 0, late = 0, bad_odometry = 0;
+	size_t bad_scans = 0, bad_ranges = 0, late = 0, bad_odometry = 0;
 	std::string labels;  //!< of everything, for messages
 };
 
@@ -75,6 +77,7 @@ void add(const mrpt::obs::CObservation& o, const GroundTruthRunOptions& options,
 		if (!options.scan_label.empty() && scan->sensorLabel != options.scan_label) return;
 		auto converted = convert(*scan);
 		std::vector<Scan>& scans = contents.scans[scan->sensorLabel];
+		for (size_t i = 0; i < scan->getScanSize(); ++i) contents.bad_ranges += std::isnan(scan->getScanRange(i));
 		if (!converted)
 			++contents.bad_scans;
 		else if (!scans.empty() && converted->t_ns <= scans.back().t_ns)
@@ -155,6 +158,24 @@ std::string chosenLabel(const GroundTruthRunOptions& options, const Contents& co
 	return labels.front();
 }
 
+/** Where the scans are silent for long. */
+void addGapNote(Session& session)
+{
+	size_t gaps = 0;
+	double longest_s = 0;
+	for (size_t i = 1; i < session.scans.size(); ++i)
+	{
+		const double gap_s = secondsBetween(session.scans[i - 1].t_ns, session.scans[i].t_ns);
+		gaps += gap_s > kScanGap_s;
+		longest_s = std::max(longest_s, gap_s);
+	}
+	if (gaps == 0) return;
+	char text[160];
+	std::snprintf(text, sizeof text, "%zu times no scan for more than %g s, at most for %.1f s: %s", gaps, kScanGap_s, longest_s,
+	              session.has_odometry ? "odometry leads across" : "nothing leads across");
+	session.notes.push_back(text);
+}
+
 void addNotes(const Contents& contents, Session& session)
 {
 	const auto note = [&](size_t count, const std::string& what)
@@ -162,11 +183,13 @@ void addNotes(const Contents& contents, Session& session)
 		if (count > 0) session.notes.push_back(std::to_string(count) + " " + what);
 	};
 	note(contents.bad_scans, "scans without beams, aperture or a finite sensor pose were left out");
+	note(contents.bad_ranges, "ranges are no numbers (NaN): taken as beams without return");
 	note(contents.late, "observations whose stamps do not increase were left out");
 	note(contents.bad_odometry, "odometry readings that are not finite or whose stamps do not increase were left out");
 	size_t blind = 0;
 	for (const Scan& scan : session.scans) blind += std::none_of(scan.ranges_m.begin(), scan.ranges_m.end(), [](float r) { return r > 0; });
 	note(blind, "scans have no valid beam: their poses come from odometry alone");
+	addGapNote(session);
 	if (!session.has_odometry) session.notes.push_back("no odometry: the guess for each scan is that of constant velocity");
 }
 }  // namespace
