@@ -12,7 +12,7 @@ packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev li
 usage() {
 	cat <<'TEXT'
 usage: ./run.sh VERB
-  demo      build, run three modes on the sample rawlog, and print a table of their errors
+  demo      build, run three modes on the sample rawlog, print a table of their errors, and make a map of its scans
   test      build and run all tests
   build     build the programs into build/bin
   accuracy  measure the accuracy table (long); writes build/accuracy/
@@ -63,7 +63,7 @@ build() {
 }
 
 demo() {
-	targets=(viwo-odometry viwo-evaluate)
+	targets=(viwo-odometry viwo-evaluate viwo-groundtruth)
 	build
 	local bin=$build_dir/bin out=$build_dir/demo mode estimates=()
 	for mode in wheel vio viwo; do
@@ -78,6 +78,11 @@ demo() {
 	echo
 	echo "Errors against rawlogs/sample_ground_truth.tum, after alignment by rotation and translation:"
 	"$bin/viwo-evaluate" -r rawlogs/sample_ground_truth.tum "${estimates[@]}" --allow-missing --json "$out/errors.json" --svg "$out/trajectories.svg"
+	echo
+	echo "== viwo-groundtruth: trajectory and map from LiDAR scans and odometry"
+	"$bin/viwo-groundtruth" -i rawlogs/sample.rawlog -o "$out/groundtruth" -c share/viwo/config_files/viwo-groundtruth/lms100.ini
+	"$bin/viwo-evaluate" -r rawlogs/sample_ground_truth.tum -e "$out/groundtruth/trajectory.tum"
+	echo "The map: $out/groundtruth/map.png"
 	echo
 	echo "Written:"
 	find "$out" -type f | LC_ALL=C sort | sed 's/^/  /'
