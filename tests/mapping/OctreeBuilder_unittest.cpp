@@ -171,6 +171,13 @@ TEST(OctreeBuilder, ColoursAreAveragedAsOctoMapDoes)
 	expected.updateInnerOccupancy();
 	EXPECT_EQ(bytesOf(builder.tree()), bytesOf(expected));
 	EXPECT_GT(builder.tree().search(3.5, 0.5, 0.5)->getColor().r, 100);
+
+	// What lies beyond the range limit is not seen, nor is its colour.
+	OctreeBuilder<octomap::ColorOcTree> near(1, {}, {2, false}, 1);
+	near.add(scan);
+	near.add({{{{3.1f, 0.5f, 0.5f}, {3.9f, 0.5f, 0.5f}}}, {}, {}});
+	near.finish();
+	EXPECT_FALSE(near.tree().search(3.5, 0.5, 0.5)->isColorSet());
 }
 
 TEST(OctreeBuilder, SenselessModels)

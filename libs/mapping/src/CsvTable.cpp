@@ -3,34 +3,13 @@
 #include <viwo/core/Error.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace viwo
 {
-namespace
+CsvTable::CsvTable(const std::string& path, const std::vector<std::string>& columns) : rows_(path, TextRows::Split::cells)
 {
-std::vector<std::string> splitAtCommas(const std::string& line)
-{
-	std::vector<std::string> words;
-	for (size_t begin = 0; begin <= line.size();)
-	{
-		const size_t comma = std::min(line.find(',', begin), line.size());
-		std::string word = line.substr(begin, comma - begin);
-		while (!word.empty() && (word.back() == ' ' || word.back() == '\r')) word.pop_back();
-		word.erase(0, word.find_first_not_of(' '));
-		words.push_back(word);
-		begin = comma + 1;
-	}
-	return words;
-}
-}  // namespace
-
-CsvTable::CsvTable(const std::string& path, const std::vector<std::string>& columns) : path_(path), file_(path), cells_(columns.size())
-{
-	if (!file_) throw Error(path + ": cannot read this file; check its name");
-	std::vector<std::string> names;
-	if (!nextLine(names)) throw Error(path + ": empty; the first line must name the columns");
+	if (!rows_.next()) throw Error(path + ": no line names the columns");
+	const std::vector<std::string>& names = rows_.words();
 	for (const std::string& column : columns)
 	{
 		const auto at = std::find(names.begin(), names.end(), column);
@@ -39,51 +18,11 @@ CsvTable::CsvTable(const std::string& path, const std::vector<std::string>& colu
 	}
 }
 
-bool CsvTable::nextLine(std::vector<std::string>& words)
-{
-	for (std::string line; std::getline(file_, line);)
-	{
-		++line_;
-		if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
-		words = splitAtCommas(line);
-		return true;
-	}
-	return false;
-}
-
 bool CsvTable::next()
 {
-	std::vector<std::string> words;
-	if (!nextLine(words)) return false;
-	for (size_t i = 0; i < places_.size(); ++i)
-	{
-		if (places_[i] >= words.size()) fail("only " + std::to_string(words.size()) + " cells in this row");
-		cells_[i] = words[places_[i]];
-	}
+	if (!rows_.next()) return false;
+	for (const size_t place : places_)
+		if (place >= rows_.words().size()) fail("only " + std::to_string(rows_.words().size()) + " cells in this row");
 	return true;
-}
-
-double CsvTable::number(size_t column) const
-{
-	const std::string& text = cells_[column];
-	double value = 0;
-	const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-	if (result.ec != std::errc() || result.ptr != text.data() + text.size() || !std::isfinite(value))
-		fail("'" + text + "' is not a finite number");
-	return value;
-}
-
-int64_t CsvTable::integer(size_t column) const
-{
-	const std::string& text = cells_[column];
-	int64_t value = 0;
-	const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-	if (result.ec != std::errc() || result.ptr != text.data() + text.size()) fail("'" + text + "' is not a whole number");
-	return value;
-}
-
-void CsvTable::fail(const std::string& what) const
-{
-	throw Error(path_ + ":" + std::to_string(line_) + ": " + what);
 }
 }  // namespace viwo

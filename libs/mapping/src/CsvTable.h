@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <fstream>
+#include "TextRows.h"
+
 #include <string>
 #include <vector>
 
@@ -17,21 +17,17 @@ class CsvTable
 	/** Goes to the next row. @throws Error when it has too few cells. @return false at the end. */
 	bool next();
 
-	/** Of this row, by the place of its column in the constructor's list. */
-	const std::string& cell(size_t column) const { return cells_[column]; }
-	double number(size_t column) const;
-	int64_t integer(size_t column) const;
+	/** @name Of this row, by the place of its column in the constructor's list. @{ */
+	const std::string& cell(size_t column) const { return rows_.words()[places_[column]]; }
+	double number(size_t column) const { return rows_.number(places_[column]); }
+	int64_t integer(size_t column) const { return rows_.integer(places_[column]); }
+	/** @} */
 
 	/** @throws Error that names file and line. */
-	[[noreturn]] void fail(const std::string& what) const;
+	[[noreturn]] void fail(const std::string& what) const { rows_.fail(what); }
 
    private:
-	bool nextLine(std::vector<std::string>& words);
-
-	std::string path_;
-	std::ifstream file_;
-	int line_ = 0;
+	TextRows rows_;
 	std::vector<size_t> places_;
-	std::vector<std::string> cells_;
 };
 }  // namespace viwo

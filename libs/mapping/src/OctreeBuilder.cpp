@@ -5,8 +5,8 @@
 #include <viwo/mapping/OctreeBuilder.h>
 
 #include <algorithm>
-#include <atomic>
 #include <future>
+#include <limits>
 #include <optional>
 
 #include "BatchInsertion.h"
@@ -38,17 +38,20 @@ struct Batch
 	size_t unusable = 0;
 };
 
-void integrateColours(octomap::OcTree&, const Batch&) {}
+void integrateColours(octomap::OcTree&, const Batch&, const RayCasting&) {}
 
 /** Colours of what was hit, as OctoMap averages them, in the order of scans and rays. */
-void integrateColours(octomap::ColorOcTree& tree, const Batch& batch)
+void integrateColours(octomap::ColorOcTree& tree, const Batch& batch, const RayCasting& casting)
 {
+	const double farthest_m = casting.max_range_m < 0 ? std::numeric_limits<double>::max() : casting.max_range_m;
 	for (const RayScan& scan : batch.scans)
 		for (size_t i = 0; i < scan.colours.size(); ++i)
 		{
-			octomap::OcTreeKey key;
+			const Ray& ray = scan.hits[i];
 			const RayColour& c = scan.colours[i];
-			if (tree.coordToKeyChecked(scan.hits[i].end, key)) tree.integrateNodeColor(key, c[0], c[1], c[2]);
+			octomap::OcTreeKey key;
+			if (!((ray.end - ray.origin).norm() <= farthest_m) || !tree.coordToKeyChecked(ray.end, key)) continue;
+			tree.integrateNodeColor(key, c[0], c[1], c[2]);
 		}
 }
 }  // namespace
@@ -89,7 +92,7 @@ struct OctreeBuilder<Tree>::Impl
 	void insert(const Batch& batch)
 	{
 		BatchInsertion<Tree>(tree, batch.updates).run();
-		integrateColours(tree, batch);
+		integrateColours(tree, batch, rays);
 		unusable += batch.unusable;
 	}
 

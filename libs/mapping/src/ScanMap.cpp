@@ -46,7 +46,6 @@ void sizeFor(const std::vector<PosedScan>& scans, double resolution_m, double fa
 	grid.setSize(static_cast<float>(min.x()), static_cast<float>(max.x()), static_cast<float>(min.y()), static_cast<float>(max.y()),
 	             static_cast<float>(resolution_m));
 }
-
 }  // namespace
 
 COccupancyGridMap2D gridOf(const std::vector<PosedScan>& scans, double resolution_m, double farthest_m)

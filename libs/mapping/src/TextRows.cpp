@@ -2,12 +2,52 @@
 
 #include <viwo/core/Error.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 namespace viwo
 {
-TextRows::TextRows(const std::string& path, const std::string& separators) : path_(path), separators_(separators), file_(path)
+namespace
+{
+constexpr const char* kBlanks = " \t\r";
+
+std::vector<std::string> wordsOf(const std::string& line, const char* separators)
+{
+	std::vector<std::string> words;
+	for (size_t begin = line.find_first_not_of(separators); begin != std::string::npos;)
+	{
+		const size_t end = std::min(line.find_first_of(separators, begin), line.size());
+		words.push_back(line.substr(begin, end - begin));
+		begin = line.find_first_not_of(separators, end);
+	}
+	return words;
+}
+
+std::vector<std::string> cellsOf(const std::string& line)
+{
+	std::vector<std::string> cells;
+	for (size_t begin = 0; begin <= line.size();)
+	{
+		const size_t comma = std::min(line.find(',', begin), line.size());
+		const std::string cell = line.substr(begin, comma - begin);
+		const size_t first = cell.find_first_not_of(kBlanks);
+		cells.push_back(first == std::string::npos ? std::string() : cell.substr(first, cell.find_last_not_of(kBlanks) + 1 - first));
+		begin = comma + 1;
+	}
+	return cells;
+}
+
+template <class Number>
+bool parse(const std::string& text, Number& value)
+{
+	const char* begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+	const auto result = std::from_chars(begin, text.data() + text.size(), value);
+	return result.ec == std::errc() && result.ptr == text.data() + text.size();
+}
+}  // namespace
+
+TextRows::TextRows(const std::string& path, Split split) : path_(path), split_(split), file_(path)
 {
 	if (!file_ || file_.peek() == std::ifstream::traits_type::eof())
 		throw Error(path + ": cannot read this file, or it is empty; check its name");
@@ -18,16 +58,9 @@ bool TextRows::next()
 	for (std::string line; std::getline(file_, line);)
 	{
 		++line_;
-		while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-		const size_t first = line.find_first_not_of(" \t");
+		const size_t first = line.find_first_not_of(kBlanks);
 		if (first == std::string::npos || line[first] == '#') continue;
-		words_.clear();
-		for (size_t begin = line.find_first_not_of(separators_); begin != std::string::npos;)
-		{
-			const size_t end = std::min(line.find_first_of(separators_, begin), line.size());
-			words_.push_back(line.substr(begin, end - begin));
-			begin = line.find_first_not_of(separators_, end);
-		}
+		words_ = split_ == Split::cells ? cellsOf(line) : wordsOf(line, split_ == Split::blanks ? kBlanks : ", \t\r");
 		return true;
 	}
 	return false;
@@ -41,12 +74,15 @@ void TextRows::expectWords(size_t count, bool at_least, const std::string& meani
 
 double TextRows::number(size_t word) const
 {
-	const std::string& text = words_[word];
-	const char* begin = text.data() + (text[0] == '+' ? 1 : 0);
 	double value = 0;
-	const auto result = std::from_chars(begin, text.data() + text.size(), value);
-	if (result.ec != std::errc() || result.ptr != text.data() + text.size() || !std::isfinite(value))
-		fail("'" + text + "' is not a finite number");
+	if (!parse(words_[word], value) || !std::isfinite(value)) fail("'" + words_[word] + "' is not a finite number");
+	return value;
+}
+
+int64_t TextRows::integer(size_t word) const
+{
+	int64_t value = 0;
+	if (!parse(words_[word], value)) fail("'" + words_[word] + "' is not a whole number");
 	return value;
 }
 

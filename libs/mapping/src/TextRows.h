@@ -1,17 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
 
 namespace viwo
 {
-/** Lines of words, split at blanks or commas; blank lines and '#' lines are skipped. */
+/** Lines of words; blank lines and '#' lines are skipped. */
 class TextRows
 {
    public:
+	enum class Split
+	{
+		blanks,             //!< any number of blanks between two words
+		commas_and_blanks,  //!< any number of either
+		cells               //!< a comma between two cells, which may be empty; blanks around them do not count
+	};
+
 	/** @throws Error when the file cannot be read, or is empty. */
-	TextRows(const std::string& path, const std::string& separators);
+	TextRows(const std::string& path, Split split);
 
 	bool next();
 
@@ -23,11 +31,15 @@ class TextRows
 	/** @throws Error for a word that is not a finite number. */
 	double number(size_t word) const;
 
+	/** @throws Error for a word that is not a whole number. */
+	int64_t integer(size_t word) const;
+
 	/** @throws Error that names file and line. */
 	[[noreturn]] void fail(const std::string& what) const;
 
    private:
-	std::string path_, separators_;
+	std::string path_;
+	Split split_;
 	std::ifstream file_;
 	int line_ = 0;
 	std::vector<std::string> words_;

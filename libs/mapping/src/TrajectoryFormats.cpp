@@ -16,8 +16,6 @@ namespace viwo
 {
 namespace
 {
-constexpr const char* kBlanks = " \t";
-
 Pose3 unitPose(const TextRows& rows, const Eigen::Quaterniond& q, const Eigen::Vector3d& p)
 {
 	if (std::abs(q.norm() - 1) > 0.01) rows.fail("the quaternion has not unit length");
@@ -38,17 +36,9 @@ int64_t stampOf(const TextRows& rows, size_t word)
 	return *t_ns;
 }
 
-int64_t wholeNumber(const TextRows& rows, size_t word)
-{
-	const std::string& text = rows.words()[word];
-	if (text.empty() || text.size() > 19 || text.find_first_not_of("-0123456789") != std::string::npos)
-		rows.fail("'" + text + "' is not a whole number");
-	return std::stoll(text);
-}
-
 Trajectory loadKitti(const std::string& path, const std::string& times_path)
 {
-	TextRows times(times_path, kBlanks), rows(path, kBlanks);
+	TextRows times(times_path, TextRows::Split::blanks), rows(path, TextRows::Split::blanks);
 	Trajectory trajectory;
 	while (rows.next())
 	{
@@ -75,20 +65,20 @@ Trajectory loadKitti(const std::string& path, const std::string& times_path)
 
 Trajectory loadEuroc(const std::string& path)
 {
-	TextRows rows(path, ", ");
+	TextRows rows(path, TextRows::Split::commas_and_blanks);
 	Trajectory trajectory;
 	while (rows.next())
 	{
 		rows.expectWords(8, true, "t_ns,x,y,z,qw,qx,qy,qz");
 		const auto at = [&](size_t word) { return rows.number(word); };
-		append(rows, wholeNumber(rows, 0), unitPose(rows, {at(4), at(5), at(6), at(7)}, {at(1), at(2), at(3)}), trajectory);
+		append(rows, rows.integer(0), unitPose(rows, {at(4), at(5), at(6), at(7)}, {at(1), at(2), at(3)}), trajectory);
 	}
 	return trajectory;
 }
 
 Trajectory loadMrpt(const std::string& path)
 {
-	TextRows rows(path, kBlanks);
+	TextRows rows(path, TextRows::Split::blanks);
 	Trajectory trajectory;
 	while (rows.next())
 	{
@@ -101,13 +91,13 @@ Trajectory loadMrpt(const std::string& path)
 
 std::map<int64_t, int64_t> loadGraphStamps(const std::string& path)
 {
-	TextRows rows(path, ", ");
+	TextRows rows(path, TextRows::Split::commas_and_blanks);
 	std::map<int64_t, int64_t> stamps;
 	while (rows.next())
 	{
 		if (rows.words()[0] == "id") continue;
 		rows.expectWords(2, true, "id,t_ns");
-		stamps[wholeNumber(rows, 0)] = wholeNumber(rows, 1);
+		stamps[rows.integer(0)] = rows.integer(1);
 	}
 	return stamps;
 }
@@ -116,13 +106,13 @@ Trajectory loadG2o(const std::string& path, const std::string& stamps_path)
 {
 	const std::map<int64_t, int64_t> stamps = loadGraphStamps(stamps_path);
 	std::map<int64_t, Pose3> poses;
-	TextRows rows(path, kBlanks);
+	TextRows rows(path, TextRows::Split::blanks);
 	while (rows.next())
 	{
 		const bool planar = rows.words()[0] == "VERTEX_SE2";
 		if (!planar && rows.words()[0] != "VERTEX_SE3:QUAT") continue;
 		rows.expectWords(planar ? 5 : 9, false, planar ? "VERTEX_SE2 id x y yaw" : "VERTEX_SE3:QUAT id x y z qx qy qz qw");
-		const auto stamp = stamps.find(wholeNumber(rows, 1));
+		const auto stamp = stamps.find(rows.integer(1));
 		if (stamp == stamps.end()) rows.fail("vertex " + rows.words()[1] + " has no stamp in " + stamps_path);
 		const auto at = [&](size_t word) { return rows.number(word); };
 		const Pose3 T = planar ? Pose3(Eigen::Quaterniond(Eigen::AngleAxisd(at(4), Eigen::Vector3d::UnitZ())), {at(2), at(3), 0})
