@@ -114,6 +114,18 @@ TEST(OctoMapProgram, NothingToMap)
 	              {"other.csv", "another trajectory"});
 }
 
+TEST(OctoMapProgram, InterruptedItLeavesNothing)
+{
+	ScanRoom room;
+	room.scans = 3000;
+	room.yaw_rate_rad_s = 0.3;
+	const ScanRoomFiles files(room);
+	const std::string map = files.folder.file("map.bt");
+	const ProgramResult result = runAndSignal(
+	    kProgram, {"-i", files.rawlog, "-t", files.tum, "-o", map, "--resolution", "0.02", "--threads", "1"}, 2, map + ".part", 0.2);
+	expectRefused(files, result, {"interrupted"});
+}
+
 TEST(OctoMapProgram, FullDisk)
 {
 	const ScanRoomFiles files;
