@@ -3,7 +3,9 @@
 #include <viwo/mapping/ObservationRays.h>
 #include <viwo/rawlog/MrptTime.h>
 
+#include <algorithm>
 #include <exception>
+#include <sstream>
 
 #include "SensorReturns.h"
 
@@ -72,6 +74,20 @@ void place(const SensorReturns& returns, SensorPath& path, const RayOptions& opt
 	}
 }
 
+/** What MRPT's exceptions say before their backtrace. */
+std::string messageOf(const std::exception& e)
+{
+	std::istringstream text(e.what());
+	std::string all;
+	for (std::string line; std::getline(text, line) && line.rfind("Call stack", 0) != 0;)
+	{
+		if (line.empty() || line.rfind("====", 0) == 0 || line.rfind("Location:", 0) == 0) continue;
+		all += (all.empty() ? "" : " ") +
+		       line.substr(line.rfind("Message:", 0) == 0 ? std::min(line.size(), line.find_first_not_of(' ', 8)) : 0);
+	}
+	return all;
+}
+
 SensorReturns returnsOfAny(const CObservation::Ptr& observation, const RayOptions& options)
 {
 	if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) return returnsOf(*scan, options);
@@ -104,7 +120,8 @@ ObservationRays::Outcome ObservationRays::convert(const CObservation::Ptr& obser
 	}
 	catch (const std::exception& e)
 	{
-		throw Error("the observation '" + observation->sensorLabel + "' at " + formatSeconds(t_ns) + " s cannot be used: " + e.what());
+		throw Error("the observation '" + observation->sensorLabel + "' at " + formatSeconds(t_ns) + " s cannot be used (" + messageOf(e) +
+		            "); if its data are in a file of their own, copy that into the rawlog's _Images folder");
 	}
 	SensorPath path(trajectory_, options_.max_gap_s, *T_WO, returns.T_OS);
 	const bool is_planar = dynamic_cast<const CObservation2DRangeScan*>(observation.get()) != nullptr;
