@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -97,6 +98,32 @@ TEST(RealLogs, Freiburg079)
 	EXPECT_EQ(e["evaluated"], 1685);
 	EXPECT_LE(e["trans_mean_m"], 0.045);
 	EXPECT_GT(e["sensor"]["trans_mean_m"], 0.0);
+}
+
+/** 525 m outdoors at 4 m/s: after that way, tracking alone is 13 m off, and the place is seen again from the other lane. */
+TEST(RealLogs, UalLoopIsClosedByVote)
+{
+	const char* data = std::getenv("VIWO_TEST_DATA");
+	if (data == nullptr) GTEST_SKIP() << "VIWO_TEST_DATA is not set";
+	const TempFolder folder;
+	const ProgramResult solved =
+	    runProgram(tool("viwo-groundtruth"),
+	               {"-i", std::string(data) + "/ual/ual_dataset_2014_05_23_2dlaser_odo.rawlog", "-o", folder.file("out"), "--quiet"});
+	ASSERT_EQ(solved.status, 0) << solved.err;
+	const Json summary = loadJson(folder.file("out/summary.json"));
+	const Trajectory trajectory = Trajectory::loadTum(folder.file("out/trajectory.tum"));
+	double longest_m = 0;
+	for (size_t i = 1; i < trajectory.size(); ++i)
+		longest_m = std::max(longest_m, (trajectory.poses()[i].T.p - trajectory.poses()[i - 1].T.p).norm());
+	const Eigen::Vector3d end = trajectory.poses().back().T.p;
+	std::cout << "[measured] " << summary["loops"] << ", end at " << end.x() << " " << end.y() << " m, longest step " << longest_m
+	          << " m\n";
+	EXPECT_GE(summary["loops"]["accepted"], 10);
+	// The last place is on the lane that was driven first.
+	double nearest_m = 1e9;
+	for (size_t i = 0; i < trajectory.size() / 4; ++i) nearest_m = std::min(nearest_m, (trajectory.poses()[i].T.p - end).norm());
+	EXPECT_LT(nearest_m, 3);
+	EXPECT_LT(longest_m, 3) << "4 m/s, and holes of half a second: the correction must not go into one step";
 }
 
 TEST(RealLogs, SimulatedByMrptWithExactTruth)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
+#include <set>
 
 namespace viwo::gt
 {
@@ -16,10 +17,12 @@ constexpr double kLinkLength_m = 0.3;  //!< of a loop, as a way along which the 
 constexpr double kPendingWay_m = 15;   //!< loops this far apart may confirm each other
 constexpr double kKernel = 3;
 constexpr double kWorstChi2 = 60;
+constexpr double kVoteWider = 2.5, kVoteScore = 0.3, kVoteInlierRatio = 0.25;
+constexpr size_t kVoteQueries = 5;  //!< submaps that must tell of the same correction
 }  // namespace
 
 LoopCloser::LoopCloser(KeyScans& keys, std::vector<GraphEdge>& edges, const GroundTruthOptions& options, const Scales& scales)
-    : keys_(keys), edges_(edges), options_(options), scales_(scales), links_(keys.size())
+    : keys_(keys), edges_(edges), options_(options), scales_(scales), limits_(options.loops), links_(keys.size())
 {
 	for (size_t k = 0; k < keys_.size(); ++k)
 	{
@@ -59,7 +62,7 @@ std::vector<double> LoopCloser::graphDistances(size_t from) const
 
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(size_t submap) const
 {
-	const LoopOptions& o = options_.loops;
+	const LoopOptions& o = limits_;
 	const size_t key = submaps_[submap];
 	const std::vector<double> way = graphDistances(key);
 	std::vector<Candidate> found;
@@ -100,8 +103,8 @@ const CorrelativeMatcher& LoopCloser::matcherOf(size_t key)
 	const auto known = matchers_.find(key);
 	if (known != matchers_.end()) return known->second;
 	return matchers_
-	    .emplace(key, CorrelativeMatcher(submapCloud(key, options_.loops.submap_reach_m), 2 * scales_.field_resolution_m,
-	                                     1.5 * scales_.field_sigma_m))
+	    .emplace(key,
+	             CorrelativeMatcher(submapCloud(key, limits_.submap_reach_m), 2 * scales_.field_resolution_m, 1.5 * scales_.field_sigma_m))
 	    .first->second;
 }
 
@@ -110,15 +113,15 @@ std::optional<LoopCloser::Loop> LoopCloser::compare(const Cloud& query, size_t k
 {
 	const Pose2 T_guess = between(keys_.poses[candidate.key], keys_.poses[key]);
 	const Cloud coarse = thinned(query, 2.5 * scales_.voxel_m);
-	const auto match = matcher.search(coarse, T_guess, candidate.half_width_m, candidate.half_angle_rad, options_.loops.min_score);
+	const auto match = matcher.search(coarse, T_guess, candidate.half_width_m, candidate.half_angle_rad, limits_.min_score);
 	if (!match) return std::nullopt;
 	PointIndex index;
-	index.build(submapCloud(candidate.key, options_.loops.submap_reach_m), 2 * scales_.voxel_m);
+	index.build(submapCloud(candidate.key, limits_.submap_reach_m), 2 * scales_.voxel_m);
 	const Registration r = registerCloud(query, index, match->T, nullptr, scales_.registration);
 	const double trust = r.trust(options_.matching.min_weakest);
-	if (r.inlierRatio() < options_.loops.min_inlier_ratio || trust <= 0) return std::nullopt;
+	if (r.inlierRatio() < limits_.min_inlier_ratio || trust <= 0) return std::nullopt;
 	// Refinement that leaves the place it started from has found something else.
-	if ((r.T.p - match->T.p).norm() > 0.4) return std::nullopt;
+	if ((r.T.p - match->T.p).norm() > std::max(0.4, scales_.registration.last_radius_m)) return std::nullopt;
 	Loop loop;
 	loop.edge.a = candidate.key;
 	loop.edge.b = key;
@@ -188,24 +191,90 @@ void LoopCloser::removeOutliers(LoopCounts& counts)
 	if (removed > 0) optimizeGraph(edges_, keys_.poses, 20);
 }
 
-LoopCounts LoopCloser::close(int threads, const std::function<bool(double)>& proceed)
+std::vector<LoopCloser::Loop> LoopCloser::compareAll(size_t submap, int threads, LoopCounts& counts)
 {
-	LoopCounts counts;
+	const std::vector<Candidate> tried = candidates(submap);
+	if (tried.empty()) return {};
+	const Cloud query = submapCloud(submaps_[submap], limits_.query_reach_m);
+	for (const Candidate& c : tried) matcherOf(c.key);
+	std::vector<std::optional<Loop>> found(tried.size());
+	parallelFor(tried.size(), threads,
+	            [&](size_t i) { found[i] = compare(query, submaps_[submap], tried[i], matchers_.at(tried[i].key)); });
+	counts.searched += tried.size();
+	std::vector<Loop> loops;
+	for (const auto& loop : found)
+		if (loop) loops.push_back(*loop);
+	return loops;
+}
+
+void LoopCloser::closeOneByOne(int threads, const std::function<bool(double)>& proceed, LoopCounts& counts)
+{
 	for (size_t s = 0; s < submaps_.size(); ++s)
 	{
 		if (!proceed(static_cast<double>(s) / static_cast<double>(submaps_.size()))) throw Error("interrupted: nothing was written");
-		const std::vector<Candidate> tried = options_.loops.enabled ? candidates(s) : std::vector<Candidate>();
-		if (tried.empty()) continue;
-		const Cloud query = submapCloud(submaps_[s], options_.loops.query_reach_m);
-		for (const Candidate& c : tried) matcherOf(c.key);
-		std::vector<std::optional<Loop>> found(tried.size());
-		parallelFor(tried.size(), threads, [&](size_t i) { found[i] = compare(query, submaps_[s], tried[i], matchers_.at(tried[i].key)); });
-		counts.searched += tried.size();
-		for (const auto& loop : found)
-			if (loop) consider(*loop, counts);
+		for (const Loop& loop : compareAll(s, threads, counts)) consider(loop, counts);
 		if (moved_) optimizeGraph(edges_, keys_.poses, 15);
 		moved_ = false;
 	}
+}
+
+std::vector<size_t> LoopCloser::votersFor(const Loop& one, const std::vector<Loop>& loops) const
+{
+	std::vector<size_t> voters;
+	for (size_t i = 0; i < loops.size(); ++i)
+		if (agree(one.edge, loops[i].edge)) voters.push_back(i);
+	return voters;
+}
+
+bool LoopCloser::closeByVote(int threads, LoopCounts& counts)
+{
+	const LoopOptions usual = limits_;
+	limits_.max_search_m *= kVoteWider;
+	limits_.min_score = std::min(usual.min_score, kVoteScore);
+	limits_.min_inlier_ratio = std::min(usual.min_inlier_ratio, kVoteInlierRatio);
+	limits_.query_reach_m *= 3;
+	limits_.submap_reach_m *= 2;
+	limits_.max_candidates *= 2;
+	matchers_.clear();
+	std::vector<Loop> loops;
+	for (size_t s = 0; s < submaps_.size(); ++s)
+		for (const Loop& loop : compareAll(s, threads, counts)) loops.push_back(loop);
+	limits_ = usual;
+	matchers_.clear();
+
+	const auto queriesOf = [&loops](const std::vector<size_t>& voters)
+	{
+		std::set<size_t> queries;
+		for (const size_t i : voters) queries.insert(loops[i].edge.b);
+		return queries.size();
+	};
+	std::vector<size_t> elected;
+	for (const Loop& loop : loops)
+	{
+		std::vector<size_t> voters = votersFor(loop, loops);
+		if (voters.size() > elected.size()) elected = std::move(voters);
+	}
+	// Who disagrees with all of the elected must be a small minority.
+	std::vector<Loop> others;
+	for (size_t i = 0; i < loops.size(); ++i)
+		if (std::none_of(elected.begin(), elected.end(), [&](size_t e) { return agree(loops[e].edge, loops[i].edge); }))
+			others.push_back(loops[i]);
+	size_t opposition = 0;
+	for (const Loop& loop : others) opposition = std::max(opposition, votersFor(loop, others).size());
+	counts.matched += loops.size();
+	if (queriesOf(elected) < kVoteQueries || elected.size() < 2 * opposition) return false;
+	for (const size_t i : elected) accept(loops[i].edge, counts);
+	optimizeGraph(edges_, keys_.poses, 50);
+	return true;
+}
+
+LoopCounts LoopCloser::close(int threads, const std::function<bool(double)>& proceed)
+{
+	LoopCounts counts;
+	if (options_.loops.enabled) closeOneByOne(threads, proceed, counts);
+	// After a long way the drift may exceed the usual window, and what is seen again may look different from the other lane.
+	const bool far = !keys_.way_m.empty() && options_.loops.drift_per_m * keys_.way_m.back() > options_.loops.max_search_m;
+	if (options_.loops.enabled && counts.accepted == 0 && far && closeByVote(threads, counts)) closeOneByOne(threads, proceed, counts);
 	counts.unconfirmed = pending_.size();
 	optimizeGraph(edges_, keys_.poses, 50);
 	removeOutliers(counts);

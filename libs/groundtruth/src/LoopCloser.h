@@ -47,6 +47,12 @@ class LoopCloser
 	const CorrelativeMatcher& matcherOf(size_t key);
 	std::optional<Loop> compare(const Cloud& query, size_t key, const Candidate& candidate, const CorrelativeMatcher& matcher) const;
 	bool agree(const GraphEdge& a, const GraphEdge& b) const;
+	std::vector<Loop> compareAll(size_t submap, int threads, LoopCounts& counts);
+	void closeOneByOne(int threads, const std::function<bool(double)>& proceed, LoopCounts& counts);
+	/** Where no loop was sure by itself: those of a wider window and lower limits vote on the correction. @return whether there is a clear
+	 * winner. */
+	bool closeByVote(int threads, LoopCounts& counts);
+	std::vector<size_t> votersFor(const Loop& one, const std::vector<Loop>& loops) const;
 	void consider(const Loop& loop, LoopCounts& counts);
 	void accept(const GraphEdge& edge, LoopCounts& counts);
 	void removeOutliers(LoopCounts& counts);
@@ -55,6 +61,7 @@ class LoopCloser
 	std::vector<GraphEdge>& edges_;
 	const GroundTruthOptions& options_;
 	const Scales& scales_;
+	LoopOptions limits_;
 	std::vector<size_t> submaps_;                                //!< central key of each
 	std::vector<std::vector<std::pair<size_t, double>>> links_;  //!< of the graph, with lengths
 	std::map<size_t, CorrelativeMatcher> matchers_;

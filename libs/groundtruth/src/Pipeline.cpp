@@ -5,8 +5,6 @@
 #include <viwo/core/Error.h>
 #include <viwo/core/Scalars.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <numeric>
 
@@ -16,7 +14,6 @@ namespace
 {
 constexpr size_t kHoldoutStride = 10;
 constexpr double kContradiction = 30;  // chi2 of a registration that the graph does not believe
-constexpr double kTied = 0.05;         // least share of a registration's information in its weakest direction
 /** Errors of ranges that depend on range, incidence and surface are common to many scans: averaging does not make them smaller. */
 constexpr double kSystematic_m = 0.008;
 
@@ -152,9 +149,7 @@ std::vector<bool> tiedToMost(const std::vector<GraphEdge>& edges, const std::vec
 	for (const GraphEdge& edge : edges)
 	{
 		if (edge.kind == GraphEdge::Kind::odometry || chi2(edge, poses) > kContradiction) continue;
-		Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
-		solver.computeDirect(edge.information.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
-		if (solver.eigenvalues()[0] < kTied * solver.eigenvalues().sum()) continue;
+		if (!holdsAllDirections(edge)) continue;
 		const size_t a = root(edge.a), b = root(edge.b);
 		part[std::max(a, b)] = std::min(a, b);
 	}

@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace viwo::gt
 {
@@ -50,6 +51,14 @@ double chi2(const GraphEdge& edge, const std::vector<Pose2>& poses)
 	const Pose2 T = between(poses[edge.a], poses[edge.b]);
 	const Eigen::Vector3d e(T.p.x() - edge.T_ab.p.x(), T.p.y() - edge.T_ab.p.y(), wrapped(T.yaw - edge.T_ab.yaw));
 	return e.dot(edge.information * e);
+}
+
+bool holdsAllDirections(const GraphEdge& edge)
+{
+	constexpr double kLeastShare = 0.05;  // of the information in the weaker direction
+	Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+	solver.computeDirect(edge.information.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+	return solver.eigenvalues()[0] >= kLeastShare * solver.eigenvalues().sum();
 }
 
 double optimizeGraph(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses, int iterations)

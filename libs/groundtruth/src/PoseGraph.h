@@ -25,6 +25,9 @@ struct GraphEdge
 /** Whitened residual of an edge, squared. */
 double chi2(const GraphEdge& edge, const std::vector<Pose2>& poses);
 
+/** Whether an edge of a registration leaves no direction of the plane open. */
+bool holdsAllDirections(const GraphEdge& edge);
+
 /** Least squares over all poses, the first one fixed. @return final cost. */
 double optimizeGraph(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses, int iterations);
 

@@ -15,6 +15,8 @@ constexpr int kFewestInliers = 25;
 constexpr double kMinRatio = 0.35;
 constexpr double kOpenStep_m = 0.1;
 constexpr size_t kInTime = 12;  // keys apart at most
+constexpr int kFewTies = 5;
+constexpr double kWeakLink = 300;
 constexpr double kStep_m = 0.12, kStep_rad = 0.05;
 constexpr double kPresent2 = 0.2 * 0.2, kPresentYaw2 = 0.05 * 0.05;  // m^2, rad^2
 
@@ -84,6 +86,20 @@ std::vector<GraphEdge> registered(const KeyScans& keys, size_t k, const GroundTr
 	}
 	return edges;
 }
+
+/** Where few pairs tie a key scan to the next in all directions, what tracking has found, against a whole local map, holds them together: a
+ *  weak link would take all that loops have to correct. */
+void strengthenWeakLinks(const std::vector<std::vector<GraphEdge>>& found, std::vector<GraphEdge>& edges)
+{
+	std::vector<int> ties(found.size(), 0);  // of each key with the next
+	for (const auto& of_key : found)
+		for (const GraphEdge& edge : of_key)
+			if (edge.kind == GraphEdge::Kind::scan && holdsAllDirections(edge))
+				for (size_t k = std::min(edge.a, edge.b); k < std::max(edge.a, edge.b); ++k) ++ties[k];
+	for (GraphEdge& edge : edges)
+		if (edge.kind == GraphEdge::Kind::scan && ties[std::min(edge.a, edge.b)] < kFewTies) edge.information *= kWeakLink;
+}
+
 }  // namespace
 
 std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, const GroundTruthOptions& options,
@@ -96,6 +112,7 @@ std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& 
 		std::vector<std::vector<GraphEdge>> found(keys.size());
 		parallelFor(keys.size(), threads, [&](size_t k) { found[k] = registered(keys, k, options, scales, round == 0); });
 		edges = kept;
+		strengthenWeakLinks(found, edges);
 		for (const auto& of_key : found) edges.insert(edges.end(), of_key.begin(), of_key.end());
 		optimizeGraph(edges, keys.poses, 20);
 	}
