@@ -74,18 +74,16 @@ void place(const SensorReturns& returns, SensorPath& path, const RayOptions& opt
 	}
 }
 
-/** What MRPT's exceptions say before their backtrace. */
+/** What MRPT's exceptions say before their backtrace: under "Message:", or, where that is empty, under "Location:". */
 std::string messageOf(const std::exception& e)
 {
 	std::istringstream text(e.what());
-	std::string all;
-	for (std::string line; std::getline(text, line) && line.rfind("Call stack", 0) != 0;)
-	{
-		if (line.empty() || line.rfind("====", 0) == 0 || line.rfind("Location:", 0) == 0) continue;
-		all += (all.empty() ? "" : " ") +
-		       line.substr(line.rfind("Message:", 0) == 0 ? std::min(line.size(), line.find_first_not_of(' ', 8)) : 0);
-	}
-	return all;
+	std::string message;
+	for (std::string line; std::getline(text, line);)
+		for (const std::string key : {"Message:", "Location:"})
+			if (line.rfind(key, 0) == 0 && message.empty())
+				message = line.substr(std::min(line.size(), line.find_first_not_of(' ', key.size())));
+	return message.empty() ? std::string(e.what()).substr(0, std::string(e.what()).find('\n')) : message;
 }
 
 SensorReturns returnsOfAny(const CObservation::Ptr& observation, const RayOptions& options)
