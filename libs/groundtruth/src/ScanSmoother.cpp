@@ -139,6 +139,20 @@ std::vector<Span> spansOf(size_t scans, const KeyScans& keys)
 	}
 	return spans;
 }
+
+/** From each scan to the next: by odometry, and where there is none by the front-end, so that nothing falls apart. */
+std::vector<std::optional<Motion2>> stepsBetween(const FrontEndResult& front_end, const MotionModel& motion)
+{
+	const size_t n = front_end.scans.size();
+	std::vector<std::optional<Motion2>> steps(n);
+	for (size_t i = 0; i + 1 < n; ++i)
+	{
+		steps[i] = motion.between(i, i + 1);
+		if (steps[i]) continue;
+		steps[i] = Motion2{between(front_end.scans[i].T, front_end.scans[i + 1].T), Eigen::Vector3d(1e2, 1e2, 1e2).asDiagonal()};
+	}
+	return steps;
+}
 }  // namespace
 
 std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResult& front_end, const KeyScans& keys,
@@ -187,14 +201,7 @@ std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResul
 			            result[i].flag = flag;
 		            }
 	            });
-	std::vector<std::optional<Motion2>> steps(n);
-	for (size_t i = 0; i + 1 < n; ++i)
-	{
-		steps[i] = motion.between(i, i + 1);
-		if (steps[i]) continue;
-		// Without odometry the front-end's own motion holds what nothing else does.
-		steps[i] = Motion2{between(front_end.scans[i].T, front_end.scans[i + 1].T), Eigen::Vector3d(1e2, 1e2, 1e2).asDiagonal()};
-	}
+	const std::vector<std::optional<Motion2>> steps = stepsBetween(front_end, motion);
 	Chain chain(poses, unary, steps);
 	for (int iteration = 0; iteration < kIterations; ++iteration) chain.iterate();
 	for (size_t i = 0; i < n; ++i)
