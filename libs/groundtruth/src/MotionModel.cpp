@@ -3,6 +3,8 @@
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
+#include <algorithm>
+
 namespace viwo::gt
 {
 namespace

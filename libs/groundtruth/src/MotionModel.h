@@ -40,8 +40,6 @@ class MotionModel
 	/** Mean over the scan's neighbours; zero where unknown. */
 	Twist2 twistAt(size_t scan) const;
 
-	bool hasOdometry() const { return session_.has_odometry; }
-
    private:
 	const Session& session_;
 	const MotionNoiseOptions options_;
