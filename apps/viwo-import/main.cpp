@@ -2,6 +2,7 @@
 #include <viwo/importers/CarmenImporter.h>
 #include <viwo/importers/EurocImporter.h>
 #include <viwo/importers/KittiImporter.h>
+#include <viwo/importers/RosBagImporter.h>
 
 #include <cstdio>
 #include <iostream>
@@ -10,23 +11,51 @@ using namespace viwo;
 
 namespace
 {
-void addFiles(CLI::App& command, ImportJob& job)
+void addOutput(CLI::App& command, ImportJob& job)
 {
-	command.add_option("recording", job.folder, "The recording: its folder, or the log's file")->required();
 	command.add_option("-o,--output", job.rawlog_path, "X.rawlog; images go to X_Images/, the ground truth to X_ground_truth.tum")
 	    ->required();
 }
 
+void addFiles(CLI::App& command, ImportJob& job)
+{
+	command.add_option("recording", job.folder, "The recording: its folder, or the log's file")->required();
+	addOutput(command, job);
+}
+
+CLI::App* addRosBag(CLI::App& cli, ImportJob& job, RosBagOptions& options)
+{
+	CLI::App* command = cli.add_subcommand("rosbag", "ROS 1 bags (plain, bz2, lz4), several as one recording");
+	command->add_option("bags", options.bags, "A.bag [B.bag ...]")->required();
+	addOutput(*command, job);
+	CLI::Option* map = command->add_option("--map", options.map_path, "Which topic becomes which label, an INI as --auto prints it");
+	command->add_flag("--auto", "Propose that from the topics, print it and use it (the default)")->excludes(map);
+	command->add_flag("--record-time", options.record_time, "Stamps are the recorder's, not those of the headers");
+	return command;
+}
+
 void print(const ImportJob& job, const ImportResult& result)
 {
-	const char* rawlog = job.rawlog_path.c_str();
-	if (result.scans > 0)
-		std::printf("%s: %zu scans, %zu odometry samples in %.3f s\n", rawlog, result.scans, result.odometry_samples, result.duration_s);
-	else
-		std::printf("%s: %zu images, %zu IMU samples, %zu odometry samples in %.3f s\n", rawlog, result.images, result.imu_samples,
-		            result.odometry_samples, result.duration_s);
+	std::fputs(result.mapping.c_str(), stdout);
+	const char* separator = "";
+	std::printf("%s%s: ", result.mapping.empty() ? "" : "\n", job.rawlog_path.c_str());
+	const auto count = [&separator](size_t number, const char* what, bool always = false)
+	{
+		if (number == 0 && !always) return;
+		std::printf("%s%zu %s", separator, number, what);
+		separator = ", ";
+	};
+	const bool of_lasers = result.scans > 0 && result.images == 0 && result.imu_samples == 0;
+	count(result.scans, "scans");
+	count(result.images, "images", !of_lasers);
+	count(result.imu_samples, "IMU samples", !of_lasers);
+	count(result.odometry_samples, "odometry samples", true);
+	count(result.gps_fixes, "GPS fixes");
+	count(result.point_clouds, "point clouds");
+	std::printf(" in %.3f s\n", result.duration_s);
 	if (!result.stamps_path.empty()) std::printf("%s: original stamps\n", result.stamps_path.c_str());
 	if (!result.ground_truth_path.empty()) std::printf("%s: %zu poses of O\n", result.ground_truth_path.c_str(), result.ground_truth_poses);
+	if (!result.gps_path.empty()) std::printf("%s: positions of the GPS antenna\n", result.gps_path.c_str());
 	std::fflush(stdout);
 	if (app::quiet()) return;
 	for (const std::string& note : result.notes) std::cerr << "viwo-import: note: " << note << std::endl;
@@ -53,11 +82,15 @@ int main(int argc, char** argv)
 	kitti->add_option("--seed", kitti_options.seed, "Of the speed noise")->check(app::seed())->capture_default_str();
 	CLI::App* carmen = cli.add_subcommand("carmen", "A CARMEN log with scans and odometry (plain, .gz or .bz2)");
 	addFiles(*carmen, job);
+	RosBagOptions bag_options;
+	CLI::App* rosbag = addRosBag(cli, job, bag_options);
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-import euroc V1_01_easy -o v101.rawlog\n"
 	    "  viwo-import kitti 2011_09_26_drive_0005_extract -o drive.rawlog --speed-noise 0.05 --speed-scale 1.01 --seed 3\n"
 	    "  viwo-import carmen intel.clf.bz2 -o intel.rawlog\n"
+	    "  viwo-import rosbag run_1.bag run_2.bag -o run.rawlog\n"
+	    "  viwo-import rosbag run.bag -o run.rawlog --map robot.ini\n"
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
 
 	return app::run(cli, argc, argv,
@@ -74,6 +107,8 @@ int main(int argc, char** argv)
 			                result = importEuroc(job);
 		                else if (kitti->parsed())
 			                result = importKitti(job, kitti_options);
+		                else if (rosbag->parsed())
+			                result = importRosBags(job, bag_options);
 		                else
 			                result = importCarmen(job);
 		                bar.clear();

@@ -2,9 +2,11 @@
 #include "SmallRecordings.h"
 
 #include <gtest/gtest.h>
+#include <viwo/importers/RosBagImporter.h>
 
 #include <filesystem>
 
+using namespace viwo;
 using namespace viwo::testing;
 
 namespace
@@ -38,6 +40,17 @@ TEST(ImportProgram, Kitti)
 	EXPECT_NE(result.out.find("20 images, 100 IMU samples, 100 odometry samples"), std::string::npos) << result.out;
 }
 
+TEST(ImportProgram, RosBagThatIsNone)
+{
+	const TempFolder folder;
+	const std::string path = write(folder, "x.bag", "no bag");
+	const ProgramResult result = run({"rosbag", path, "-o", folder.file("x.rawlog"), "--auto"});
+	EXPECT_EQ(result.status, 1);
+	EXPECT_EQ(result.errorLines(), 1u) << result.err;
+	EXPECT_NE(result.err.find(hasRosBagSupport() ? "not a ROS bag" : "built without ROS bags"), std::string::npos) << result.err;
+	EXPECT_EQ(run({"rosbag", path, "-o", folder.file("x.rawlog"), "--auto", "--map", path}).status, 2);
+}
+
 TEST(ImportProgram, ErrorsAndUsage)
 {
 	const TempFolder folder;
@@ -46,7 +59,7 @@ TEST(ImportProgram, ErrorsAndUsage)
 	EXPECT_EQ(failed.errorLines(), 1u) << failed.err;
 	for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
 	                                                  {"euroc", folder.path()},
-	                                                  {"rosbag", folder.path(), "-o", "x"},
+	                                                  {"mcap", folder.path(), "-o", "x"},
 	                                                  {"kitti", folder.path(), "-o", "x", "--speed-scale", "-1"}})
 	{
 		const ProgramResult bad = run(arguments);

@@ -1,10 +1,12 @@
 #include "RawlogContent.h"
 #include "TempFolder.h"
 
+#include <viwo/core/MrptPose.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/Trajectory.h>
 #include <viwo/importers/EurocImporter.h>
 #include <viwo/importers/KittiImporter.h>
+#include <viwo/importers/RosBagImporter.h>
 #include <viwo/rawlog/MrptTime.h>
 
 #include <gtest/gtest.h>
@@ -104,4 +106,57 @@ TEST(RealRecordings, KittiSnippet)
 	EXPECT_NEAR(std::remainder(truth_yaw - gyro_yaw, 2 * M_PI), 0, 0.05);
 	EXPECT_LT(std::sqrt(yaw_rate_square), 0.02);
 	EXPECT_LT(ate_m, 0.01 * truth.length_m());
+}
+
+// Its IMU lies on its side, and the bag has no tf: robot_localization, whose test data this is, publishes it as turned by yaw -90, roll 90
+// degrees.
+TEST(RealRecordings, Husky)
+{
+	const std::string source = dataFolder("husky/test1.bag");
+	if (source.empty()) GTEST_SKIP() << "VIWO_TEST_DATA is not set";
+	if (!hasRosBagSupport()) GTEST_SKIP() << "built without ROS bags";
+	const TempFolder folder;
+	const ImportResult result = importRosBags({"", folder.file("x.rawlog")}, {{source}, {}, false});
+	EXPECT_EQ(result.imu_samples, 11865u);
+	EXPECT_EQ(result.odometry_samples, 3952u);
+	EXPECT_EQ(result.gps_fixes, 989u);
+	EXPECT_NE(result.mapping.find("yaw_pitch_roll_deg = -90 0 90"), std::string::npos) << result.mapping;
+
+	const RawlogContent content(folder.file("x.rawlog"));
+	ASSERT_EQ(content.imu.size(), 11865u);
+	ASSERT_EQ(content.odometry.size(), 3952u);
+	Eigen::Vector3d force_O = Eigen::Vector3d::Zero();
+	std::vector<StampedPose> poses;
+	size_t next = 0;
+	Pose3 T_WO;
+	for (size_t i = 1; i < content.imu.size(); ++i)
+	{
+		const auto& imu = *content.imu[i];
+		const Pose3 T_OB = fromMrpt(imu.sensorPose);
+		const auto vector = [&imu](auto x, auto y, auto z) { return Eigen::Vector3d(imu.get(x), imu.get(y), imu.get(z)); };
+		force_O += T_OB.R * vector(mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_Y_ACC, mrpt::obs::IMU_Z_ACC) / 11864;
+		const double w_rad_s = (T_OB.R * vector(mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ)).z();
+		const int64_t t_ns = nanosecondsOf(imu.timestamp);
+		const double dt_s = secondsBetween(nanosecondsOf(content.imu[i - 1]->timestamp), t_ns);
+		while (next + 1 < content.odometry.size() && nanosecondsOf(content.odometry[next]->timestamp) < t_ns) ++next;
+		const double v_m_s = content.odometry[next]->velocityLocal.vx;
+		T_WO = T_WO * Pose3(Eigen::Quaterniond(Eigen::AngleAxisd(w_rad_s * dt_s, Eigen::Vector3d::UnitZ())), {v_m_s * dt_s, 0, 0});
+		poses.push_back({t_ns, T_WO});
+	}
+	const Trajectory gps = Trajectory::loadTum(result.gps_path);
+	EXPECT_EQ(gps.size(), 989u);
+	std::vector<Eigen::Vector2d> ref, est;
+	size_t at = 0;
+	for (const StampedPose& fix : gps.poses())
+	{
+		while (at + 1 < poses.size() && poses[at].t_ns < fix.t_ns) ++at;
+		ref.emplace_back(fix.T.p.head<2>());
+		est.emplace_back(poses[at].T.p.head<2>());
+	}
+	const double ate_m = planarAte_m(ref, est);
+	std::cout << "[measured] mean specific force in O " << force_O.transpose() << " m/s^2; wheels with gyro against GPS: ATE " << ate_m
+	          << " m\n";
+	EXPECT_NEAR(force_O.z(), 9.8, 0.1);
+	EXPECT_LT(force_O.head<2>().norm(), 0.3);
+	EXPECT_LT(ate_m, 3.5);
 }

@@ -1,0 +1,77 @@
+#include "RosBagFile.h"
+
+#include "RosBagHeader.h"
+
+#include <console_bridge/console.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <viwo/core/Error.h>
+
+#include <algorithm>
+#include <map>
+
+namespace viwo
+{
+struct RosBagFile::Impl
+{
+	std::vector<std::unique_ptr<rosbag::Bag>> bags;
+};
+
+RosBagFile::RosBagFile(const std::vector<std::string>& paths) : impl_(std::make_unique<Impl>()), paths_(paths)
+{
+	if (paths.empty()) throw Error("no bag was given");
+	// rosbag would say on stderr what becomes an Error here.
+	console_bridge::noOutputHandler();
+	std::map<std::pair<std::string, std::string>, size_t> counts;
+	for (const std::string& path : paths)
+	{
+		requireReadableBag(path);
+		try
+		{
+			impl_->bags.push_back(std::make_unique<rosbag::Bag>(path));
+			rosbag::View view(*impl_->bags.back());
+			// Messages by connection: a topic has one per publisher.
+			for (const rosbag::ConnectionInfo* connection : view.getConnections()) counts[{connection->topic, connection->datatype}];
+			for (auto& [topic, count] : counts)
+			{
+				const auto ofTopic = [&topic = topic](const rosbag::ConnectionInfo* c)
+				{ return c->topic == topic.first && c->datatype == topic.second; };
+				count += rosbag::View(*impl_->bags.back(), ofTopic).size();
+			}
+		}
+		catch (const std::exception& e)
+		{
+			throw Error(path + ": damaged or truncated (rosbag: " + e.what() +
+			            "); copy it again, or save what is there with `rosbag reindex`");
+		}
+	}
+	for (const auto& [topic, count] : counts) topics_.push_back({topic.first, topic.second, count});
+}
+
+RosBagFile::~RosBagFile() = default;
+
+std::string RosBagFile::name() const
+{
+	return paths_.size() == 1 ? paths_.front() : paths_.front() + " and " + std::to_string(paths_.size() - 1) + " more";
+}
+
+void RosBagFile::visit(const std::set<std::string>& topics, const std::function<bool(const rosbag::MessageInstance&)>& visitor) const
+{
+	try
+	{
+		const rosbag::TopicQuery wanted(std::vector<std::string>(topics.begin(), topics.end()));
+		rosbag::View view;
+		for (const auto& bag : impl_->bags) view.addQuery(*bag, wanted);
+		for (const rosbag::MessageInstance& message : view)
+			if (!visitor(message)) return;
+	}
+	catch (const rosbag::BagException& e)
+	{
+		throw Error(name() + ": damaged (rosbag: " + e.what() + "); copy it again, or save what is there with `rosbag reindex`");
+	}
+	catch (const ros::serialization::StreamOverrunException& e)
+	{
+		throw Error(name() + ": a message is cut short or damaged (" + e.what() + "); copy the bag again");
+	}
+}
+}  // namespace viwo

@@ -1,0 +1,215 @@
+#include "RosBagSources.h"
+
+#include "RosInstance.h"
+
+#include <viwo/core/Scalars.h>
+#include <viwo/core/Time.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace viwo
+{
+namespace
+{
+/** Of the drive that decides on an IMU's axes. */
+constexpr double kLongestLook_s = 600;
+
+/** Adding 0 takes the sign from -0. */
+std::vector<double> yawPitchRoll_deg(const Eigen::Quaterniond& R_OS)
+{
+	const Eigen::Matrix3d R = R_OS.toRotationMatrix();
+	const double pitch_rad = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), roll_rad = std::atan2(R(2, 1), R(2, 2));
+	const auto rounded_deg = [](double angle_rad) { return std::round(angle_rad / kDegree * 1e6) * 1e-6 + 0; };
+	return {rounded_deg(yawOf(R_OS)), rounded_deg(pitch_rad), rounded_deg(roll_rad)};
+}
+
+std::string poseText(const Pose3& T)
+{
+	const std::vector<double> angles_deg = yawPitchRoll_deg(T.R);
+	char text[200];
+	std::snprintf(text, sizeof text, "position_m = %.4g %.4g %.4g, yaw_pitch_roll_deg = %.4g %.4g %.4g", T.p.x() + 0, T.p.y() + 0,
+	              T.p.z() + 0, angles_deg[0], angles_deg[1], angles_deg[2]);
+	return text;
+}
+
+std::string typeOf(const std::vector<RosTopic>& topics, const std::string& name)
+{
+	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
+	return at == topics.end() ? "" : at->type;
+}
+
+bool needsPose(const std::string& type)
+{
+	return !isOdometryType(type);
+}
+}  // namespace
+
+RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool record_time) : bag_(bag)
+{
+	readHeaders(map);
+	chooseBaseFrame(map.general.base_frame);
+	readFrames();
+	chooseBaseFrame(map.general.base_frame);
+	for (RosSource& source : sources_)
+	{
+		if (isImageType(source.type)) readCamera(source);
+		place(source);
+		if (!source.placed && source.type == "sensor_msgs/Imu") placeByGravity(source, record_time);
+	}
+}
+
+void RosBagSources::readHeaders(const RosTopicMap& map)
+{
+	for (const TopicMapping& mapping : map.topics)
+	{
+		RosSource source;
+		source.mapping = mapping;
+		source.type = typeOf(bag_.topics(), mapping.topic);
+		bool found = false;
+		bag_.visit({mapping.topic},
+		           [&](const rosbag::MessageInstance& message)
+		           {
+			           const RosHeader header = readHeader(message);
+			           source.frame = header.frame;
+			           source.child_frame = header.child_frame;
+			           found = true;
+			           return false;
+		           });
+		if (!found) throw Error(bag_.name() + ": " + mapping.topic + " has no message; leave it out by a --map");
+		sources_.push_back(std::move(source));
+	}
+}
+
+bool RosBagSources::allPlaced() const
+{
+	return std::all_of(sources_.begin(), sources_.end(),
+	                   [this](const RosSource& source) {
+		                   return !needsPose(source.type) || source.mapping.sensorPose() ||
+		                          (!base_frame_.empty() && frames_.find(base_frame_, source.frame));
+	                   });
+}
+
+void RosBagSources::readFrames()
+{
+	const auto read = [this](const rosbag::MessageInstance& message)
+	{
+		readTransforms(message,
+		               [this](const std::string& parent, const std::string& child, const Pose3& T) { frames_.add(parent, child, T); });
+	};
+	bag_.visit({"/tf_static"},
+	           [&](const rosbag::MessageInstance& message)
+	           {
+		           read(message);
+		           return true;
+	           });
+	// Large where a robot has many joints: no further than needed.
+	bag_.visit({"/tf"},
+	           [&](const rosbag::MessageInstance& message)
+	           {
+		           if (allPlaced()) return false;
+		           read(message);
+		           return true;
+	           });
+}
+
+void RosBagSources::chooseBaseFrame(const std::string& wanted)
+{
+	base_frame_ = FrameTree::plainName(wanted);
+	for (const RosSource& source : sources_)
+		if (base_frame_.empty() && source.mapping.label == "ODOMETRY") base_frame_ = FrameTree::plainName(source.child_frame);
+	for (const RosSource& source : sources_)
+		if (base_frame_.empty()) base_frame_ = FrameTree::plainName(source.child_frame);
+	for (const char* usual : {"base_link", "base_footprint"})
+		if (base_frame_.empty() && frames_.has(usual)) base_frame_ = usual;
+}
+
+void RosBagSources::place(RosSource& source)
+{
+	if (!needsPose(source.type)) return;
+	const std::string& label = source.mapping.label;
+	if (const auto T_OS = source.mapping.sensorPose())
+	{
+		source.T_OS = *T_OS, source.placed = true;
+		return;
+	}
+	const auto T_OS = base_frame_.empty() ? std::nullopt : frames_.find(base_frame_, source.frame);
+	if (T_OS)
+	{
+		source.T_OS = *T_OS, source.placed = true;
+		notes_.push_back(label + ": by tf from " + base_frame_ + " to " + source.frame + ", " + poseText(*T_OS));
+		return;
+	}
+	if (isImageType(source.type)) source.T_OS.R = forwardOpticalAxes();
+	if (source.type == "sensor_msgs/Imu") return;  // gravity will tell
+	notes_.push_back(label + ": tf has no frame '" + source.frame + "' under '" + base_frame_ + "'; assumed " +
+	                 (isImageType(source.type) ? "in O, looking forward" : "in O, with O's axes") +
+	                 ": give position_m and yaw_pitch_roll_deg in a --map");
+}
+
+void RosBagSources::readCamera(RosSource& source)
+{
+	const std::string& label = source.mapping.label;
+	if (source.mapping.camera_info.empty())
+	{
+		notes_.push_back(label + ": no CameraInfo; put the calibration in with `rawlog-edit --camera-params` before it is used");
+		return;
+	}
+	const bool rectified = source.mapping.topic.find("rect") != std::string::npos;
+	bool calibrated = false;
+	bag_.visit({source.mapping.camera_info},
+	           [&](const rosbag::MessageInstance& message)
+	           {
+		           const auto camera = readCameraInfo(message, rectified);
+		           if (camera) source.camera = *camera, calibrated = true;
+		           return !calibrated;
+	           });
+	if (!calibrated)
+		notes_.push_back(label + ": " + source.mapping.camera_info +
+		                 " says that the camera is not calibrated (K is 0); put the calibration in with `rawlog-edit --camera-params`");
+}
+
+void RosBagSources::placeByGravity(RosSource& source, bool record_time)
+{
+	const auto odometry_source = std::find_if(
+	    sources_.begin(), sources_.end(), [](const RosSource& s) { return isOdometryType(s.type) && s.type != "sensor_msgs/JointState"; });
+	std::vector<ImuSample> imu;
+	std::vector<StampedTwist> odometry;
+	std::set<std::string> topics{source.mapping.topic};
+	if (odometry_source != sources_.end()) topics.insert(odometry_source->mapping.topic);
+	bag_.visit(topics,
+	           [&](const rosbag::MessageInstance& message)
+	           {
+		           const int64_t t_ns = stampOf(readHeader(message), record_time);
+		           if (message.getTopic() == source.mapping.topic)
+			           imu.push_back(readImu(message, t_ns));
+		           else
+			           odometry.push_back(readTwist(message, t_ns));
+		           return imu.empty() || secondsBetween(imu.front().t_ns, t_ns) < kLongestLook_s;
+	           });
+	const auto axes = guessImuAxes(imu, odometry);
+	if (!axes)
+	{
+		notes_.push_back(source.mapping.label + ": too few samples to tell its axes; assumed those of O");
+		return;
+	}
+	source.T_OS.R = axes->R_OB;
+	source.mapping.position_m = {0, 0, 0};
+	source.mapping.yaw_pitch_roll_deg = yawPitchRoll_deg(source.T_OS.R);
+	char text[300];
+	std::snprintf(text, sizeof text, "specific force (%.2f, %.2f, %.2f) m/s^2, %.1f deg from an axis; ", axes->mean_force_B_m_s2.x(),
+	              axes->mean_force_B_m_s2.y(), axes->mean_force_B_m_s2.z(), axes->tilt_rad / kDegree);
+	std::string note = source.mapping.label + ": tf has no frame '" + source.frame + "' under '" + base_frame_ + "'; by its mean " + text;
+	if (axes->forward_correlation)
+		std::snprintf(text, sizeof text, "forward by the odometry's accelerations (correlation %.2f)", *axes->forward_correlation);
+	else
+		std::snprintf(text, sizeof text, "forward is a guess (no odometry that tells)");
+	note += text;
+	if (axes->yaw_rate_correlation)
+	{
+		std::snprintf(text, sizeof text, ", yaw rates agree by %.2f", *axes->yaw_rate_correlation);
+		note += text;
+	}
+	notes_.push_back(note + ": " + poseText(source.T_OS) + "; its place is unknown, give it in a --map");
+}
+}  // namespace viwo

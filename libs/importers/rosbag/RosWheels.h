@@ -1,0 +1,23 @@
+#pragma once
+
+#include "RosMessages.h"
+
+namespace viwo
+{
+/** Joints of the wheels to the vehicle's motion. */
+class RosWheels
+{
+   public:
+	/** Of a sensor_msgs/JointState: from the change of the positions since the message before, so the mean since then, or, where joints
+	 * have no positions, from their velocities. @return nothing for the first positions, and for a message without these joints. */
+	std::optional<StampedTwist> push(const rosbag::MessageInstance& message, int64_t t_ns, const TopicMapping& mapping);
+
+   private:
+	struct Angles
+	{
+		int64_t t_ns;
+		double left_rad, right_rad;
+	};
+	std::optional<Angles> last_;
+};
+}  // namespace viwo
