@@ -7,7 +7,8 @@ build_dir=${VIWO_BUILD_DIR:-build}
 jobs=${VIWO_JOBS:-$(nproc)}
 targets=() # empty: all
 packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libopencv-dev nlohmann-json3-dev libcli11-dev libyaml-cpp-dev libgtest-dev
-	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-maps-dev libmrpt-system-dev mrpt-apps mrpt-common liboctomap-dev octomap-tools zlib1g-dev libbz2-dev)
+	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-maps-dev libmrpt-system-dev mrpt-apps mrpt-common liboctomap-dev octomap-tools zlib1g-dev libbz2-dev
+	librosbag-storage-dev libroscpp-core-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev)
 
 usage() {
 	cat <<'TEXT'

@@ -11,7 +11,7 @@ bool hasRosBagSupport()
 ImportResult importRosBags(const ImportJob&, const RosBagOptions& options)
 {
 	throw Error((options.bags.empty() ? std::string("ROS bags") : options.bags.front()) +
-	            ": this viwo was built without ROS bags; install librosbag-storage-dev, libsensor-msgs-dev, libnav-msgs-dev and "
+	            ": this viwo was built without ROS bags; install librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libnav-msgs-dev and "
 	            "libtf2-msgs-dev, and build it again");
 }
 }  // namespace viwo

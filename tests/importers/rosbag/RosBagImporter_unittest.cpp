@@ -254,7 +254,8 @@ TEST_F(RosBag, MapChoosesPosesTruthAndStamps)
 {
 	writeFullBag(path("x.bag"));
 	const std::string map = writeMap(
-	    "[general]\nground_truth = /vicon\n[GYRO]\ntopic = /imu\nposition_m = 1 2 3\nyaw_pitch_roll_deg = 90 0 0\n[WHEELS]\ntopic = "
+	    "[general]\nground_truth = /vicon\n[GYRO]\ntopic = /imu // of the bag\nposition_m = 1 2 3 // in O\nyaw_pitch_roll_deg = 90 0 "
+	    "0\n[WHEELS]\ntopic = "
 	    "/odom\n");
 	const ImportResult result = import(map, true);
 	EXPECT_EQ(result.images, 0u);
