@@ -1,3 +1,5 @@
+#include "StreamStatistics.h"
+
 #include <viwo/core/Error.h>
 #include <viwo/importers/RosBagImporter.h>
 
@@ -8,10 +10,24 @@ bool hasRosBagSupport()
 	return false;
 }
 
+namespace
+{
+[[noreturn]] void refuse(const std::string& path)
+{
+	throw Error(
+	    path +
+	    ": this viwo was built without ROS bags; install librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libnav-msgs-dev "
+	    "and libtf2-msgs-dev, and build it again");
+}
+}  // namespace
+
 ImportResult importRosBags(const ImportJob&, const RosBagOptions& options)
 {
-	throw Error((options.bags.empty() ? std::string("ROS bags") : options.bags.front()) +
-	            ": this viwo was built without ROS bags; install librosbag-storage-dev, libroscpp-core-dev, libsensor-msgs-dev, libnav-msgs-dev and "
-	            "libtf2-msgs-dev, and build it again");
+	refuse(options.bags.empty() ? "ROS bags" : options.bags.front());
+}
+
+RecordingInfo inspectRosBag(const std::string& path, const std::function<bool(double)>&)
+{
+	refuse(path);
 }
 }  // namespace viwo

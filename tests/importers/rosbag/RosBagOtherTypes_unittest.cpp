@@ -3,6 +3,7 @@
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <viwo/importers/RecordingInfo.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -164,6 +165,17 @@ TEST_F(RosBag, BayerPatterns)
 		for (int row = 2; row < 10; ++row)
 			for (int column = 2; column < 14; ++column) ASSERT_EQ(picture.at<cv::Vec3b>(row, column), bgr) << pattern;
 	}
+}
+
+TEST_F(RosBag, InfoOfABag)
+{
+	writeOdometryBag(path("x.bag"), 40);
+	const RecordingInfo info = inspectRecording(path("x.bag"), [](double) { return true; });
+	ASSERT_EQ(info.streams.size(), 1u);
+	EXPECT_EQ(info.streams[0].name, "/odom");
+	EXPECT_EQ(info.streams[0].count, 40u);
+	EXPECT_NEAR(info.streams[0].rate_hz, 20, 1e-9);
+	EXPECT_EQ(info.streams[0].role, SensorRole::wheels);
 }
 
 // A camera on a mast that turns, an odometry without twists, an IMU in g: all of it is said.

@@ -1,0 +1,102 @@
+#include "ExpectError.h"
+#include "RunProgram.h"
+#include "SmallRecordings.h"
+
+#include <viwo/importers/EurocImporter.h>
+#include <viwo/importers/RecordingInfo.h>
+#include <viwo/rawlog/RawlogWriter.h>
+
+using namespace viwo;
+using namespace viwo::testing;
+
+namespace
+{
+RecordingInfo inspect(const std::string& path)
+{
+	return inspectRecording(path, [](double) { return true; });
+}
+
+const StreamInfo& stream(const RecordingInfo& info, const std::string& name, SensorRole role)
+{
+	for (const StreamInfo& s : info.streams)
+		if (s.name == name && s.role == role) return s;
+	throw std::runtime_error("no stream " + name);
+}
+
+void expectText(const RecordingInfo& info, std::initializer_list<const char*> parts)
+{
+	const std::string text = describeRecording(info);
+	for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in:\n" << text;
+}
+}  // namespace
+
+TEST(RecordingInfo, EurocFolderAndItsRawlog)
+{
+	const TempFolder folder;
+	writeEuroc(folder);
+	const RecordingInfo source = inspect(folder.path());
+	EXPECT_EQ(source.kind, "EuRoC sequence");
+	const StreamInfo& imu = stream(source, "imu0", SensorRole::imu);
+	EXPECT_EQ(imu.count, 201u);
+	EXPECT_NEAR(imu.rate_hz, 100, 1e-9);
+	EXPECT_NEAR(imu.largest_gap_s, 0.01, 1e-9);
+	expectText(source, {"--mode viwo       yes\n", "viwo-groundtruth  no, without 2D scans\n"});
+
+	importEuroc({folder.path(), folder.file("x.rawlog")});
+	const RecordingInfo rawlog = inspect(folder.file("x.rawlog"));
+	EXPECT_EQ(rawlog.kind, "rawlog");
+	EXPECT_EQ(stream(rawlog, "CAM", SensorRole::camera).count, 21u);
+	EXPECT_EQ(stream(rawlog, "ODOMETRY", SensorRole::wheels).count, 41u);
+	EXPECT_EQ(stream(rawlog, "IMU", SensorRole::imu).first_t_ns, kStart_ns);
+	expectText(rawlog, {"--mode viwo       yes\n", "CObservationImage"});
+}
+
+TEST(RecordingInfo, KittiFolder)
+{
+	const TempFolder folder;
+	writeKitti(folder);
+	const RecordingInfo info = inspect(folder.path());
+	EXPECT_EQ(info.kind, "KITTI drive");
+	EXPECT_EQ(stream(info, "image_00", SensorRole::camera).count, 20u);
+	EXPECT_NEAR(stream(info, "image_00", SensorRole::camera).largest_gap_s, 0.2, 1e-6);
+	expectText(info, {"note: 1 images of timestamps.txt are missing"});
+}
+
+TEST(RecordingInfo, GapsJitterAndWhatIsMissing)
+{
+	const TempFolder folder;
+	{
+		RawlogWriter writer(folder.file("x.rawlog"));
+		// 20 Hz with 2 ms of jitter, and a hole of half a second.
+		for (int i = 0; i < 100; ++i)
+			writer.write(makeOdometry(kStart_ns + (50 * i + (i % 2) * 2 + (i >= 50 ? 500 : 0)) * 1000000LL, {0.1, 0}));
+		writer.write(makeImage(kStart_ns, CameraModel(64, 48, 0, 0, 0, 0), {}, "absent.png"));
+		writer.close();
+	}
+	const RecordingInfo info = inspect(folder.file("x.rawlog"));
+	const StreamInfo& odometry = stream(info, "ODOMETRY", SensorRole::wheels);
+	EXPECT_NEAR(odometry.rate_hz, 99 / 5.452, 1e-6);
+	EXPECT_NEAR(odometry.largest_gap_s, 0.548, 1e-6);
+	EXPECT_NEAR(odometry.jitter_s, 0.004, 1e-6);
+	expectText(info, {"--mode wheel      yes\n", "--mode wio        no, without an IMU\n", "CAM: 1 image files are missing"});
+}
+
+TEST(RecordingInfo, Program)
+{
+	const TempFolder folder;
+	writeEuroc(folder);
+	const std::string program = VIWO_BINARY_DIR "/bin/viwo-info";
+	const ProgramResult result = runProgram(program, {folder.path()});
+	EXPECT_EQ(result.status, 0) << result.err;
+	EXPECT_NE(result.out.find("EuRoC sequence"), std::string::npos) << result.out;
+	EXPECT_EQ(result.err, "");
+	EXPECT_NE(runProgram(program, {"--help"}).out.find("Examples:"), std::string::npos);
+	EXPECT_EQ(runProgram(program, {}).status, 2);
+	for (const std::string& path : {folder.file("absent.rawlog"), write(folder, "empty/x", "") + "/..",
+	                                write(folder, "x.log", "FLASE 1 2\n"), write(folder, "x.mcap", "\x89MCAP0\r\n")})
+	{
+		const ProgramResult bad = runProgram(program, {path});
+		EXPECT_EQ(bad.status, 1) << path;
+		EXPECT_EQ(bad.errorLines(), 1u) << bad.err;
+	}
+}
