@@ -170,9 +170,11 @@ TEST_F(RosBag, ScansAndFixes)
 
 	const auto fixes = observationsOf<mrpt::obs::CObservationGPS>(path("x.rawlog"), "GPS");
 	ASSERT_EQ(fixes.size(), 10u);
-	EXPECT_EQ(fixes[2]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields.latitude_degrees, 2e-5);
-	EXPECT_EQ(fixes[2]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields.fix_quality, 1);
-	EXPECT_EQ(fixes[3]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields.fix_quality, 0);
+	// MRPT packs these fields: no reference may be bound to them.
+	const auto ofFix = [&fixes](size_t i) { return fixes[i]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields; };
+	EXPECT_EQ(double{ofFix(2).latitude_degrees}, 2e-5);
+	EXPECT_EQ(int{ofFix(2).fix_quality}, 1);
+	EXPECT_EQ(int{ofFix(3).fix_quality}, 0);
 	const Trajectory track = Trajectory::loadTum(result.gps_path);
 	ASSERT_EQ(track.size(), 9u);
 	// A degree of latitude at the equator is a (1 - e^2) pi / 180 = 110574.3 m.
