@@ -109,6 +109,28 @@ TEST(Program, HelpVersionQuiet)
 	EXPECT_EQ(runWith({}, [] { return app::quiet() ? 1 : 0; }).status, 0) << "a flag of an earlier run stays";
 }
 
+/** A recording that is overwritten by a typing error cannot be made again. */
+TEST(Program, AnInputIsNeverOverwritten)
+{
+	const TempFolder folder;
+	const std::string precious = write(folder, "run.rawlog", "precious"), link = folder.file("link");
+	std::filesystem::create_symlink(precious, link);
+	for (const auto& [output, status] : std::vector<std::pair<std::string, int>>{{precious, 2}, {link, 2}, {folder.file("new"), 0}})
+	{
+		CLI::App cli("", "viwo-test");
+		std::string input, to_ply;
+		CLI::App* command = cli.add_subcommand("make");
+		command->add_option("-i,--input", input);
+		command->add_option("--to-ply", to_ply);
+		std::vector<std::string> arguments{"viwo-test", "make", "-i", precious, "--to-ply", output};
+		std::vector<char*> argv;
+		for (auto& argument : arguments) argv.push_back(argument.data());
+		::testing::internal::CaptureStderr();
+		EXPECT_EQ(app::run(cli, static_cast<int>(argv.size()), argv.data(), [] { return 0; }), status) << output;
+		EXPECT_EQ(::testing::internal::GetCapturedStderr().empty(), status == 0);
+	}
+}
+
 TEST(Program, SignalsSetAFlag)
 {
 	EXPECT_EQ(runWith({},

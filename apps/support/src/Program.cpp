@@ -9,6 +9,9 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace viwo::app
 {
@@ -95,6 +98,39 @@ int guarded(const std::string& program, const std::function<int()>& body)
 	}
 }
 
+/** Options that name a file to write, in all programs. */
+bool isOutput(const CLI::Option& option)
+{
+	static const std::set<std::string> names{"output", "json", "svg", "html", "to-ply", "to-grid", "scan-graph"};
+	const auto& long_names = option.get_lnames();
+	return std::any_of(long_names.begin(), long_names.end(), [](const std::string& name) { return names.count(name) != 0; });
+}
+
+void collectFiles(const CLI::App& cli, std::vector<std::string>& inputs, std::vector<std::string>& outputs)
+{
+	for (const CLI::Option* option : cli.get_options())
+		for (const std::string& value : option->results())
+		{
+			std::error_code ignored;
+			if (std::filesystem::is_regular_file(value, ignored)) (isOutput(*option) ? outputs : inputs).push_back(value);
+		}
+	for (const CLI::App* command : cli.get_subcommands()) collectFiles(*command, inputs, outputs);
+}
+
+/** A recording that is overwritten by a typing error cannot be made again. */
+void requireInputsAreKept(const CLI::App& cli)
+{
+	std::vector<std::string> inputs, outputs;
+	collectFiles(cli, inputs, outputs);
+	for (const std::string& output : outputs)
+		for (const std::string& input : inputs)
+		{
+			std::error_code ignored;
+			if (std::filesystem::equivalent(output, input, ignored))
+				throw UsageError(output + " would be overwritten, but is an input; give the output another name");
+		}
+}
+
 CLI::Validator finiteNumber(const char* what, bool (*holds)(double))
 {
 	const auto check = [what, holds](std::string& text)
@@ -154,7 +190,12 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 		return fail(program, std::string(e.what()) + " (see " + program + " --help)", 2);
 	}
 	installSignalHandlers();
-	return guarded(program, body);
+	return guarded(program,
+	               [&]
+	               {
+		               requireInputsAreKept(cli);
+		               return body();
+	               });
 }
 
 bool interrupted()
