@@ -102,7 +102,7 @@ TEST(ConvertProgram, RawlogWithPosesForMrptsPrograms)
 	EXPECT_EQ(poses, 39u * 5 + 1);
 	const ProgramResult info = runProgram("/usr/bin/rawlog-edit", {"--info", "-i", out});
 	EXPECT_NE(info.out.find("TRUTH"), std::string::npos) << info.out;
-	expectRefused(runProgram(kProgram, {"rawlog", "-i", files.rawlog, "-t", files.tum, "-o", files.rawlog}), "is the input");
+	expectRefused(runProgram(kProgram, {"rawlog", "-i", files.rawlog, "-t", files.tum, "-o", files.rawlog}), "is an input");
 	writeFile(files.folder.file("other.tum"), "1 0 0 0 0 0 0 1\n");
 	expectRefused(
 	    runProgram(kProgram, {"rawlog", "-i", files.rawlog, "-t", files.folder.file("other.tum"), "-o", files.folder.file("z.rawlog")}),
