@@ -36,14 +36,6 @@ RunRecipe runOf(const std::string& sequence, uint64_t seed, const std::string& w
 	return run;
 }
 
-/** What the camera does not notice. */
-bool blind(const ErrorSource& source)
-{
-	for (const std::string& word : source.off)
-		if (word.rfind("wheels.", 0) != 0 && word.rfind("imu.", 0) != 0) return false;
-	return true;
-}
-
 Words offBut(const ErrorSource* kept)
 {
 	Words off;
@@ -70,12 +62,12 @@ RunRecipe noneOf(const std::string& sequence, uint64_t seed)
 RunRecipe aloneOf(const std::string& sequence, uint64_t seed, const ErrorSource& source)
 {
 	const Words none = offBut(nullptr);
-	return runOf(sequence, seed, "only-" + dashed(source.name), offBut(&source), blind(source) ? &none : nullptr);
+	return runOf(sequence, seed, "only-" + dashed(source.name), offBut(&source), cameraIsBlindTo(source.off) ? &none : nullptr);
 }
 RunRecipe withoutOf(const std::string& sequence, uint64_t seed, const ErrorSource& source)
 {
 	const Words all;
-	return runOf(sequence, seed, "without-" + dashed(source.name), source.off, blind(source) ? &all : nullptr);
+	return runOf(sequence, seed, "without-" + dashed(source.name), source.off, cameraIsBlindTo(source.off) ? &all : nullptr);
 }
 
 /** Median over the seeds of the runs that a recipe makes. */

@@ -15,12 +15,17 @@ namespace
 constexpr const char* kSimulatorVersion = "1";
 }  // namespace
 
+bool cameraIsBlindTo(const std::vector<std::string>& overrides)
+{
+	return std::all_of(overrides.begin(), overrides.end(),
+	                   [](const std::string& word) { return word.rfind("wheels.", 0) == 0 || word.rfind("imu.", 0) == 0; });
+}
+
 SimulatedDrive SimulatedDrive::with(const std::string& what, const std::vector<std::string>& more) const
 {
 	SimulatedDrive drive = *this;
 	drive.name += "-" + what;
-	const auto blind = [](const std::string& word) { return word.rfind("wheels.", 0) == 0 || word.rfind("imu.", 0) == 0; };
-	const bool same = std::all_of(more.begin(), more.end(), blind);
+	const bool same = cameraIsBlindTo(more);
 	drive.same_images = !same ? nullptr : same_images ? same_images : std::make_shared<const SimulatedDrive>(*this);
 	drive.overrides.insert(drive.overrides.end(), more.begin(), more.end());
 	return drive;

@@ -63,7 +63,7 @@ Job folderJob(const std::string& folder, const std::string& content, const std::
 	Job job;
 	job.prepare = [=]
 	{
-		if (!content.empty() && fs::exists(inputs) && readFile(inputs) == content) return false;
+		if (!content.empty() && holds(inputs, content)) return false;
 		fs::remove_all(folder);
 		fs::create_directories(folder);
 		if (begun) begun();

@@ -12,12 +12,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kContentFile = "/inputs.txt";
-
-bool holds(const std::string& folder, const std::string& content)
-{
-	const std::string path = folder + kContentFile;
-	return fs::exists(path) && readFile(path) == content;
-}
 }  // namespace
 
 SimulationCache::SimulationCache(std::string folder, std::string programs) : folder_(std::move(folder)), programs_(std::move(programs)) {}
@@ -34,7 +28,7 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 	job.label = (recipe.program == "viwo-sim" ? "simulate " : "import ") + recipe.name;
 	job.prepare = [recipe, folder, making]
 	{
-		if (recipe.cached && holds(folder, recipe.content)) return false;
+		if (recipe.cached && holds(folder + kContentFile, recipe.content)) return false;
 		fs::remove_all(making);
 		fs::remove_all(folder);
 		fs::create_directories(making);

@@ -3,6 +3,7 @@
 #include <viwo/core/Error.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -13,6 +14,11 @@ std::string readFile(const std::string& path)
 	std::ifstream file(path, std::ios::binary);
 	if (!file) throw Error(path + ": cannot be read");
 	return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool holds(const std::string& path, const std::string& content)
+{
+	return std::filesystem::exists(path) && readFile(path) == content;
 }
 
 std::string hashOf(const std::string& content)

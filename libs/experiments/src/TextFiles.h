@@ -7,6 +7,9 @@ namespace viwo::experiments
 /** @throws Error when it cannot be read. */
 std::string readFile(const std::string& path);
 
+/** Whether the file is there with just this content. */
+bool holds(const std::string& path, const std::string& content);
+
 /** FNV-1a, 64 bit, as 16 hexadecimal digits: names for content. */
 std::string hashOf(const std::string& content);
 }  // namespace viwo::experiments

@@ -21,6 +21,9 @@ struct LogRecipe
 	double cost_s = 1;  //!< about how long it takes
 };
 
+/** Whether a log keeps its images when these are overruled: section.key=value of wheels and IMU. */
+bool cameraIsBlindTo(const std::vector<std::string>& overrides);
+
 /** A drive that is simulated. */
 struct SimulatedDrive
 {
