@@ -5,7 +5,9 @@
 #include <viwo/mapping/TrajectoryFormats.h>
 #include <viwo/rawlog/ObservationAdapter.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 using namespace viwo;
 
@@ -31,11 +33,13 @@ void declareTrajectory(CLI::App& cli, Arguments& a)
 {
 	CLI::App& c = *cli.add_subcommand("trajectory", "A trajectory in another format, frame or rate");
 	c.add_option("-i,--input", a.input, "Trajectory")->required();
-	c.add_option("-o,--output", a.output, "Trajectory; stamps go to X_times.txt (kitti) or X_stamps.csv (g2o)")->required();
+	c.add_option("-o,--output", a.output, "Trajectory; its stamps go to X_kitti_times.txt (kitti) or X_g2o_stamps.csv (g2o)")->required();
 	c.add_option("--from", a.from, "Format of the input; by default by its extension (.tum .kitti .csv .mrpt .g2o)")
 	    ->check(CLI::IsMember(kFormats));
 	c.add_option("--to", a.to, "Format of the output")->check(CLI::IsMember(kFormats));
-	c.add_option("--stamps", a.stamps, "Stamps of an input without any (default: X_times.txt or X_stamps.csv beside it)");
+	c.add_option("--stamps", a.stamps,
+	             "Stamps of an input without any; by default those beside it: X_kitti_times.txt or X_times.txt (kitti), "
+	             "X_g2o_stamps.csv or X_stamps.csv (g2o)");
 	c.add_option("--from-frame", a.from_frame, "What the input is the pose of: O vehicle, B IMU, C camera")
 	    ->check(CLI::IsMember(kFrames))
 	    ->capture_default_str();
@@ -43,7 +47,7 @@ void declareTrajectory(CLI::App& cli, Arguments& a)
 	c.add_option("--rawlog", a.rawlog, "Where the poses of IMU and camera on the vehicle are read");
 	c.add_option("--cam-label", a.labels.cam_label, "Sensor label of the camera")->capture_default_str();
 	c.add_option("--imu-label", a.labels.imu_label, "Sensor label of the IMU")->capture_default_str();
-	auto* rate = c.add_option("--rate", a.rate_hz, "Poses a second, interpolated, Hz")->check(app::positive());
+	auto* rate = c.add_option("--rate", a.rate_hz, "Poses a second, interpolated, Hz")->check(app::between(0.001, 10000));
 	c.add_option("--like", a.like, "Poses at the stamps of this trajectory (TUM), interpolated")->excludes(rate);
 	c.add_option("--max-gap", a.max_gap_s, "Longest gap to interpolate across, s")->check(app::positive())->capture_default_str();
 }
@@ -87,13 +91,29 @@ Pose3 mounting(const std::string& frame, const Calibration& calibration)
 	return frame == "B" ? calibration.T_OB : frame == "C" ? calibration.T_OC : Pose3();
 }
 
+/** Stamps go in and out beside the files that the arguments name. */
+void requireDifferentFiles(std::vector<std::string> inputs, std::vector<std::string> outputs)
+{
+	for (std::vector<std::string>* files : {&inputs, &outputs}) files->erase(std::remove(files->begin(), files->end(), ""), files->end());
+	app::requireInputsAreKept(inputs, outputs);
+}
+
+void requireExtension(const std::string& path, const std::string& extension)
+{
+	std::filesystem::path name(path);
+	if (name.extension() == ".gz") name.replace_extension();
+	if (name.extension() != extension) throw app::UsageError(path + ": the name must end in " + extension + " or " + extension + ".gz");
+}
+
 int convertTrajectory(const Arguments& a)
 {
 	const TrajectoryFormat from = formatOf(a.from, a.input, "--from"), to = formatOf(a.to, a.output, "--to");
 	const std::string to_frame = a.to_frame.empty() ? a.from_frame : a.to_frame;
 	if (to_frame != a.from_frame && a.rawlog.empty())
 		throw app::UsageError("--to-frame needs --rawlog, which has the poses of the sensors on the vehicle");
-	Trajectory trajectory = loadTrajectory(a.input, from, a.stamps);
+	const std::string stamps = a.stamps.empty() ? existingStampsPathOf(a.input, from) : a.stamps, new_stamps = stampsPathOf(a.output, to);
+	requireDifferentFiles({a.input, stamps, a.like, a.rawlog}, {a.output, new_stamps});
+	Trajectory trajectory = loadTrajectory(a.input, from, stamps);
 	if (to_frame != a.from_frame)
 	{
 		const auto uses = [&](const char* frame) { return a.from_frame == frame || to_frame == frame; };
@@ -104,7 +124,8 @@ int convertTrajectory(const Arguments& a)
 	if (!a.like.empty()) trajectory = resampledLike(trajectory, Trajectory::loadTum(a.like), a.max_gap_s);
 	if (trajectory.empty()) throw Error(a.input + ": no pose at the stamps of " + a.like);
 	saveTrajectory(a.output, to, trajectory);
-	std::printf("%s: %zu poses, %.2f m\n", a.output.c_str(), trajectory.size(), trajectory.length_m());
+	std::printf("%s: %zu poses, %.2f m%s\n", a.output.c_str(), trajectory.size(), trajectory.length_m(),
+	            new_stamps.empty() ? "" : ("; stamps in " + new_stamps).c_str());
 	return 0;
 }
 
@@ -118,6 +139,7 @@ int convertLandmarks(const Arguments& a)
 
 int convertRawlog(const Arguments& a)
 {
+	requireExtension(a.output, ".rawlog");
 	const Trajectory trajectory = Trajectory::loadTum(a.trajectory);
 	app::ProgressBar bar;
 	RawlogWithPosesOptions options;
@@ -129,12 +151,14 @@ int convertRawlog(const Arguments& a)
 	options.interrupted = [] { return app::interrupted(); };
 	const RawlogWithPosesResult result = writeRawlogWithPoses(options, trajectory);
 	bar.clear();
-	std::printf("%s: %zu observations and %zu poses\n", a.output.c_str(), result.observations, result.poses);
+	std::printf("%s: %zu observations and %zu poses%s\n", a.output.c_str(), result.observations, result.poses,
+	            result.images_folder.empty() ? "" : ("; their files in " + result.images_folder).c_str());
 	return 0;
 }
 
 int convertToSimpleMap(const Arguments& a)
 {
+	requireExtension(a.output, ".simplemap");
 	const Trajectory trajectory = Trajectory::loadTum(a.trajectory);
 	KeyFrameMapOptions options;
 	options.rawlog = a.input;
@@ -146,6 +170,7 @@ int convertToSimpleMap(const Arguments& a)
 		options.key_frames_ns = keyFramesAlong(trajectory, a.distance_m, a.angle_deg * kDegree);
 	else
 		for (const KeyFramePose& frame : loadKeyFrames(a.key_frames)) options.key_frames_ns.push_back(frame.t_ns);
+	std::sort(options.key_frames_ns.begin(), options.key_frames_ns.end());
 	std::printf("%s: %zu key frames\n", a.output.c_str(), writeKeyFrameMap(options, trajectory));
 	return 0;
 }

@@ -32,7 +32,8 @@ CLI::App* declareRelations(CLI::App& cli, RelationArguments& a)
 	    ->add_option(
 	        "--sensor", a.sensor,
 	        "Evaluate a second frame beside O: x (m), y (m), yaw (deg) of a sensor on the robot, between whose poses the relations are")
-	    ->expected(3);
+	    ->expected(3)
+	    ->check(app::finite());
 	relations->add_option("--json", a.json, "Write the figures to this file too");
 	return relations;
 }

@@ -51,8 +51,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
 	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(app::nonNegative());
 	cli.add_option("--min-coverage", a.min_coverage, "Exit with 1 when the coverage of an estimate is below, 0 to 1")
-	    ->check(app::nonNegative())
-	    ->check(CLI::Range(0.0, 1.0));
+	    ->check(app::between(0, 1));
 	cli.add_option("--max-gap", a.options.max_gap_s, "Longest gap of the reference to interpolate across, s")
 	    ->check(app::positive())
 	    ->capture_default_str();

@@ -2,9 +2,11 @@
 #include <viwo/core/PeakMemory.h>
 #include <viwo/mapping/OctoMapRun.h>
 #include <viwo/mapping/OctreeFiles.h>
+#include <viwo/mapping/PoseFlags.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 
 using namespace viwo;
@@ -31,8 +33,9 @@ void declareOutputs(CLI::App& cli, Arguments& a)
 	cli.add_option("--scan-graph", a.run.scan_graph, "Write the scans as text for octomap's log2graph, too (.log)");
 	cli.add_option("--to-ply", a.run.ply, "Write the centres of the occupied voxels, too");
 	cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)");
-	cli.add_option("--grid-min-z", a.run.grid_min_z_m, "From this height on, m")->capture_default_str();
-	cli.add_option("--grid-max-z", a.run.grid_max_z_m, "Up to this height, m")->capture_default_str();
+	cli.add_option("--grid-min-z", a.run.grid_slice.min_z_m, "From this height on, m (0.05; of a flat map its lowest)")
+	    ->check(app::finite());
+	cli.add_option("--grid-max-z", a.run.grid_slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")->check(app::finite());
 	cli.add_option("--colour", a.colour, "ColorOcTree: colours of the sensor's returns, or by height (.ot only)")
 	    ->check(CLI::IsMember({"none", "sensor", "height"}))
 	    ->capture_default_str();
@@ -49,24 +52,28 @@ void declareSources(CLI::App& cli, Arguments& a)
 	               "Landmarks with a larger relative deviation of depth are left out")
 	    ->check(app::positive())
 	    ->capture_default_str();
-	cli.add_option("--flags", a.run.flags, "trajectory_covariance.csv: observations whose pose is flagged as bad are left out");
-	cli.add_option("--bad-flags", a.run.bad_flags, "Flags that count as bad")->delimiter(',')->capture_default_str();
+	CLI::Option* flags =
+	    cli.add_option("--flags", a.run.flags, "trajectory_covariance.csv: observations whose pose is flagged as bad are left out");
+	cli.add_option("--bad-flags", a.run.bad_flags, "Flags that count as bad")
+	    ->delimiter(',')
+	    ->needs(flags)
+	    ->check(CLI::IsMember(knownPoseFlags()))
+	    ->capture_default_str();
 	cli.add_option("--max-gap", rays.max_gap_s, "Longest gap of the trajectory to interpolate across, s")
 	    ->check(app::positive())
 	    ->capture_default_str();
 	cli.add_option("--scan-duration", rays.scan_duration_s, "Planar scans: from the first to the last beam, s; 0: all at once")
-	    ->check(app::nonNegative())
+	    ->check(app::between(0, 10))
 	    ->capture_default_str();
 	cli.add_option("--stamp-position", rays.stamp_position, "Planar scans: where in the sweep the stamp lies, 0 first beam, 1 last")
-	    ->check(app::nonNegative())
-	    ->check(CLI::Range(0.0, 1.0))
+	    ->check(app::between(0, 1))
 	    ->capture_default_str();
 	cli.add_option("--min-range", rays.min_range_m, "Nearer returns are left out, m")->check(app::nonNegative())->capture_default_str();
 	cli.add_option("--subsample", rays.subsample, "Every n-th return of an observation")
 	    ->check(CLI::Range(1, 1000000))
 	    ->capture_default_str();
-	cli.add_option("--pointcloud-min-z", rays.min_z_m, "Returns below this height in the map are left out, m");
-	cli.add_option("--pointcloud-max-z", rays.max_z_m, "Returns above this height in the map are left out, m");
+	cli.add_option("--pointcloud-min-z", rays.min_z_m, "Returns below this height in the map are left out, m")->check(app::finite());
+	cli.add_option("--pointcloud-max-z", rays.max_z_m, "Returns above this height in the map are left out, m")->check(app::finite());
 	cli.add_flag("--filter-ground", a.filter_ground, "Depth images and clouds: the ground is not occupied");
 	cli.add_option("--ground-distance", a.ground.distance_m, "Points this near to the ground's plane belong to it, m")
 	    ->check(app::positive())
@@ -78,16 +85,30 @@ void declareSources(CLI::App& cli, Arguments& a)
 	cli.add_flag("--allow-truncated", a.run.allow_truncated, "Take a truncated rawlog as far as it goes");
 }
 
+CLI::Validator rangeLimit()
+{
+	const auto check = [](std::string& text)
+	{ return text == "-1" || app::positive()(text).empty() ? std::string() : "'" + text + "' is neither a finite number above 0 nor -1"; };
+	return CLI::Validator(check, "");
+}
+
 void declareModel(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("--resolution", a.run.resolution_m, "Edge of a voxel, m")->check(app::positive())->capture_default_str();
-	cli.add_option("--max-range", a.run.casting.max_range_m, "Longer rays only clear, up to this, m; -1: no limit")->capture_default_str();
+	cli.add_option("--resolution", a.run.resolution_m, "Edge of a voxel, m")->check(app::between(1e-4, 1000))->capture_default_str();
+	cli.add_option("--max-range", a.run.casting.max_range_m, "Longer rays only clear, up to this, m; -1: no limit")
+	    ->check(rangeLimit())
+	    ->capture_default_str();
 	cli.add_flag("--discretize", a.run.casting.discretize, "One ray for each voxel hit in an observation");
-	cli.add_option("--hit", a.run.model.hit, "Sensor model: probability of a hit")->capture_default_str();
-	cli.add_option("--miss", a.run.model.miss, "Sensor model: probability of a miss")->capture_default_str();
-	cli.add_option("--min", a.run.model.clamping_min, "Sensor model: clamping limit of free voxels")->capture_default_str();
-	cli.add_option("--max", a.run.model.clamping_max, "Sensor model: clamping limit of occupied voxels")->capture_default_str();
+	cli.add_option("--hit", a.run.model.hit, "Sensor model: probability of a hit")->check(app::inside(0.5, 1))->capture_default_str();
+	cli.add_option("--miss", a.run.model.miss, "Sensor model: probability of a miss")->check(app::inside(0, 0.5))->capture_default_str();
+	cli.add_option("--min", a.run.model.clamping_min, "Sensor model: clamping limit of free voxels")
+	    ->check(app::inside(0, 0.5))
+	    ->capture_default_str();
+	cli.add_option("--max", a.run.model.clamping_max, "Sensor model: clamping limit of occupied voxels")
+	    ->check(app::inside(0.5, 1))
+	    ->capture_default_str();
 	cli.add_option("--occupancy-thres", a.run.model.occupancy_threshold, "Probability from which on a voxel is occupied")
+	    ->check(app::inside(0, 1))
 	    ->capture_default_str();
 	cli.add_option("--threads", a.run.threads, "Threads; the result does not depend on them")
 	    ->check(CLI::Range(1, 256))
@@ -98,6 +119,21 @@ void declareModel(CLI::App& cli, Arguments& a)
 	    "  viwo-octomap -i run.rawlog -t out/trajectory.tum -o run.ot --landmarks out --colour height --to-ply run.ply\n"
 	    "  viwo-octomap -i run.rawlog -t out/trajectory.tum -o run.bt --sources depth --discretize --max-range 4 --to-grid run.yaml\n"
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
+}
+
+std::string withExtension(const std::string& path, const char* extension)
+{
+	return std::filesystem::path(path).replace_extension(extension).string();
+}
+
+void requireRisingLimits(const OctoMapRunOptions& run)
+{
+	const HeightSlice& grid = run.grid_slice;
+	if (grid.min_z_m.value_or(HeightSlice::kMin_z_m) > grid.max_z_m.value_or(HeightSlice::kMax_z_m))
+		throw app::UsageError("--grid-max-z is below --grid-min-z");
+	if (run.rays.min_z_m > run.rays.max_z_m) throw app::UsageError("--pointcloud-max-z is below --pointcloud-min-z");
+	if (run.casting.max_range_m > 0 && run.rays.min_range_m >= run.casting.max_range_m)
+		throw app::UsageError("--max-range is not above --min-range: every return would be left out");
 }
 
 void interpret(Arguments& a)
@@ -111,6 +147,15 @@ void interpret(Arguments& a)
 	{
 		throw app::UsageError(e.what());
 	}
+	requireRisingLimits(run);
+	std::vector<std::string> outputs{run.output};
+	if (run.both) outputs.push_back(withExtension(run.output, octreeFormatOf(run.output) == OctreeFormat::bt ? ".ot" : ".bt"));
+	if (!run.grid.empty() && std::filesystem::path(run.grid).extension() != ".yaml")
+		throw app::UsageError(run.grid + ": a grid map's name ends in .yaml");
+	if (!run.grid.empty()) outputs.insert(outputs.end(), {run.grid, withExtension(run.grid, ".pgm")});
+	for (const std::string& name : {run.ply, run.scan_graph})
+		if (!name.empty()) outputs.push_back(name);
+	app::requireInputsAreKept({run.rawlog, run.trajectory, run.flags}, outputs);
 	const auto asked = [&](const char* source) { return a.sources.empty() || std::count(a.sources.begin(), a.sources.end(), source) > 0; };
 	run.rays.scans = asked("scans");
 	run.rays.depth = asked("depth");
@@ -124,8 +169,8 @@ void interpret(Arguments& a)
 
 void print(const Arguments& a, const OctoMapRunResult& r)
 {
-	std::printf("%s: %zu observations, %zu rays; %zu occupied and %zu free leaves; %.1f s, %.0f MiB\n", a.run.output.c_str(), r.used, r.rays,
-	            r.occupied, r.free, r.wall_time_s, peakMemory_mb());
+	std::printf("%s: %zu observations, %zu rays; %zu occupied and %zu free leaves; %.1f s, %.0f MiB\n", a.run.output.c_str(), r.used,
+	            r.rays, r.occupied, r.free, r.wall_time_s, peakMemory_mb());
 	std::fflush(stdout);
 	if (app::quiet()) return;
 	const auto note = [](size_t count, const char* what)

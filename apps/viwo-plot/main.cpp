@@ -16,7 +16,7 @@ struct Arguments
 {
 	std::string output, map, octomap, landmarks, title;
 	std::vector<std::string> trajectories;
-	double min_z_m = 0.05, max_z_m = 2;
+	HeightSlice slice;
 };
 
 void declare(CLI::App& cli, Arguments& a)
@@ -24,8 +24,10 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("-o,--output", a.output, "Picture: .png or .svg")->required()->check(app::notEmpty());
 	auto* map = cli.add_option("--map", a.map, "Grid map of ROS's map_server (.yaml)");
 	cli.add_option("--octomap", a.octomap, "OctoMap (.bt or .ot), seen from above between two heights")->excludes(map);
-	cli.add_option("--min-z", a.min_z_m, "Of the OctoMap: from this height on, m; --min-z = --max-z is a slice")->capture_default_str();
-	cli.add_option("--max-z", a.max_z_m, "Up to this height, m")->capture_default_str();
+	cli.add_option("--min-z", a.slice.min_z_m,
+	               "Of the OctoMap: from this height on, m (0.05; of a flat map its lowest); --min-z = --max-z is a slice")
+	    ->check(app::finite());
+	cli.add_option("--max-z", a.slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")->check(app::finite());
 	cli.add_option("--landmarks", a.landmarks, "Landmarks of viwo-odometry (.ply)");
 	cli.add_option("-t,--trajectory", a.trajectories, "Trajectory (TUM) to draw on top; may be given several times");
 	cli.add_option("--title", a.title, "Line above the picture");
@@ -38,22 +40,35 @@ void declare(CLI::App& cli, Arguments& a)
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
 }
 
+OccupancyImage sliceOf(const Arguments& a)
+{
+	try
+	{
+		return loadProjection(a.octomap, a.slice);
+	}
+	catch (const Error& e)
+	{
+		const std::string what = e.what();
+		throw Error(what + (what.find("between the heights") == std::string::npos ? "" : "; set --min-z and --max-z"));
+	}
+}
+
 MapPlot plotOf(const Arguments& a)
 {
 	MapPlot plot;
 	plot.title = a.title;
 	if (!a.map.empty()) plot.map = loadMapServer(a.map);
-	if (!a.octomap.empty()) plot.map = loadProjection(a.octomap, a.min_z_m, a.max_z_m);
+	if (!a.octomap.empty()) plot.map = sliceOf(a);
 	if (!a.landmarks.empty())
 	{
-		PlotLayer layer{"landmarks", {120, 120, 120}, PlotLayer::Kind::points, {}};
+		PlotLayer layer{"landmarks", {120, 120, 120}, PlotLayer::Kind::points, {}, a.landmarks};
 		for (const Landmark& landmark : loadLandmarks(a.landmarks)) layer.points_m.emplace_back(landmark.p_W.head<2>());
 		plot.layers.push_back(layer);
 	}
 	const std::vector<std::string> names = legendNames(a.trajectories);
 	for (size_t i = 0; i < names.size(); ++i)
 	{
-		PlotLayer layer{names[i], plotColour(i), PlotLayer::Kind::path, {}};
+		PlotLayer layer{names[i], plotColour(i), PlotLayer::Kind::path, {}, a.trajectories[i]};
 		const Trajectory trajectory = Trajectory::loadTum(a.trajectories[i]);
 		for (const StampedPose& pose : trajectory.poses()) layer.points_m.emplace_back(pose.T.p.head<2>());
 		plot.layers.push_back(layer);
@@ -76,7 +91,9 @@ int main(int argc, char** argv)
 			    throw app::UsageError(arguments.output + ": a picture's name ends in .png or .svg");
 		    if (arguments.map.empty() && arguments.octomap.empty() && arguments.landmarks.empty() && arguments.trajectories.empty())
 			    throw app::UsageError("nothing to draw: give --map, --octomap, --landmarks or --trajectory");
-		    if (!(arguments.min_z_m <= arguments.max_z_m)) throw app::UsageError("--max-z is below --min-z");
+		    const HeightSlice& slice = arguments.slice;
+		    if (slice.min_z_m.value_or(HeightSlice::kMin_z_m) > slice.max_z_m.value_or(HeightSlice::kMax_z_m))
+			    throw app::UsageError("--max-z is below --min-z");
 		    saveMapPlot(arguments.output, plotOf(arguments));
 		    std::printf("%s\n", arguments.output.c_str());
 		    return 0;

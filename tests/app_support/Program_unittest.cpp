@@ -93,6 +93,17 @@ TEST(Program, ValuesThatAreNoNumbersOrNamesAreRefused)
 	}
 	EXPECT_FALSE(refused(app::nonNegative(), "0"));
 	EXPECT_TRUE(refused(app::positive(), "0"));
+	for (const char* text : {"nan", "inf", "x", "", "1.5", "-0.5"})
+	{
+		EXPECT_TRUE(refused(app::between(0, 1), text)) << text;
+		EXPECT_TRUE(refused(app::inside(0, 1), text)) << text;
+	}
+	for (const char* text : {"0", "1", "1e-9"}) EXPECT_FALSE(refused(app::between(0, 1), text)) << text;
+	EXPECT_TRUE(refused(app::inside(0, 1), "0"));
+	EXPECT_TRUE(refused(app::inside(0, 1), "1"));
+	EXPECT_FALSE(refused(app::inside(0, 1), "0.5"));
+	EXPECT_FALSE(refused(app::finite(), "-1e300"));
+	EXPECT_TRUE(refused(app::finite(), "nan"));
 	EXPECT_TRUE(refused(app::notEmpty(), ""));
 	EXPECT_FALSE(refused(app::notEmpty(), "out"));
 }
@@ -129,6 +140,15 @@ TEST(Program, AnInputIsNeverOverwritten)
 		EXPECT_EQ(app::run(cli, static_cast<int>(argv.size()), argv.data(), [] { return 0; }), status) << output;
 		EXPECT_EQ(::testing::internal::GetCapturedStderr().empty(), status == 0);
 	}
+}
+
+TEST(Program, NamesMadeOfArgumentsAreCheckedToo)
+{
+	const TempFolder folder;
+	const std::string input = write(folder, "in", "x"), other = folder.file("other");
+	EXPECT_NO_THROW(app::requireInputsAreKept({input, folder.file("absent")}, {other, folder.file("third"), "/dev/null", "/dev/null"}));
+	EXPECT_THROW(app::requireInputsAreKept({input}, {other, folder.path() + "/./in"}), app::UsageError);
+	EXPECT_THROW(app::requireInputsAreKept({}, {other, folder.path() + "/./other"}), app::UsageError);
 }
 
 TEST(Program, SignalsSetAFlag)

@@ -159,7 +159,7 @@ TEST(CovarianceFile, NamesFileAndLine)
 	const TempFolder folder;
 	EXPECT_NE(errorOf(folder.file("absent.csv")).find("absent.csv"), std::string::npos);
 	EXPECT_NE(errorOf(write(folder, "a.csv", csv(""))).find("no covariance"), std::string::npos);
-	EXPECT_NE(errorOf(write(folder, "b.csv", csv(row("1", "x")))).find("b.csv:3: 'x' is not a number"), std::string::npos);
+	EXPECT_NE(errorOf(write(folder, "b.csv", csv(row("1", "x")))).find("b.csv:3: 'x' is not a finite number"), std::string::npos);
 	EXPECT_NE(errorOf(write(folder, "c.csv", csv(row("2", "1") + row("2", "1")))).find("c.csv:4: time stamps do not increase"),
 	          std::string::npos);
 	EXPECT_NE(errorOf(write(folder, "d.csv", row("1", "1"))).find("d.csv:1: the header line"), std::string::npos);

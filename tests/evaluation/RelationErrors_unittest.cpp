@@ -90,13 +90,14 @@ TEST(RelationErrors, SaysWhatIsWrongInOneLine)
 		writeFile(folder.file("r"), text);
 		expectError([&] { loadRelations(folder.file("r")); }, parts);
 	};
-	expectBad("", {"r", "holds no relation"});
-	expectBad("# x\n1 2 3 4\n", {"r:2", "4 words instead of 8"});
+	expectBad("", {"r", "empty"});
+	expectBad("# x\n", {"r", "holds no relation"});
+	expectBad("# x\n1 2 3 4\n", {"r:2", "4 columns", "t1 t2 x y z roll pitch yaw"});
 	expectBad("1 two 0 0 0 0 0 0\n", {"r:1", "'two'"});
 	expectBad("1 2 0 0 0 0 0 nan\n", {"r:1", "'nan'"});
-	expectError([&] { loadRelations(folder.file("absent")); }, {"absent", "cannot be read"});
+	expectError([&] { loadRelations(folder.file("absent")); }, {"absent", "cannot read"});
 	writeFile(folder.file("s"), "1,2\n");
-	expectError([&] { loadStampTable(folder.file("s")); }, {"s:1", "rawlog_ns,original_s"});
+	expectError([&] { loadStampTable(folder.file("s")); }, {"s:1", "no column 'rawlog_ns'"});
 	writeFile(folder.file("s"), "rawlog_ns,original_s\nx,2\n");
 	expectError([&] { loadStampTable(folder.file("s")); }, {"s:2", "'x'"});
 	expectError([&] { relationErrors({{5, 6, 0, 0, 0}}, threePoses()); }, {"none of the 1 relations", "--stamps"});

@@ -1,4 +1,5 @@
 #include "ExpectError.h"
+#include "Refused.h"
 #include "ScanRoom.h"
 
 #include <octomap/OcTree.h>
@@ -108,6 +109,32 @@ TEST(Landmarks, PcdReadByAnIndependentReader)
 		EXPECT_EQ(Eigen::Vector3d(x, y, z), landmark.p_W);
 		EXPECT_EQ(id, landmark.id);
 	}
+}
+
+/** What viwo-convert makes, read word by word after the format's definition. */
+TEST(Landmarks, PlyReadByAnIndependentReader)
+{
+	const TempFolder folder;
+	const std::vector<Landmark> landmarks{{4, {3, 1, 2}, 0.01}, {4000000000u, {-3.5, -1, 1.5}, 0.02}};
+	saveLandmarks(folder.file("l.ply"), landmarks);
+	expectDone(runProgram(VIWO_BINARY_DIR "/bin/viwo-convert", {"landmarks", "-i", folder.file("l.ply"), "-o", folder.file("m.ply")}));
+	std::istringstream file(readFile(folder.file("m.ply")));
+	std::vector<std::string> header;
+	for (std::string line; std::getline(file, line) && line != "end_header";)
+		if (line.rfind("comment ", 0) != 0) header.push_back(line);
+	EXPECT_EQ(header, (std::vector<std::string>{"ply", "format ascii 1.0", "element vertex 2", "property float x", "property float y",
+	                                            "property float z", "property float depth_deviation", "property uint id"}));
+	for (const Landmark& landmark : landmarks)
+	{
+		float x = 0, y = 0, z = 0, deviation = 0;
+		uint32_t id = 0;
+		ASSERT_TRUE(file >> x >> y >> z >> deviation >> id);
+		EXPECT_EQ(Eigen::Vector3f(x, y, z), landmark.p_W.cast<float>());
+		EXPECT_FLOAT_EQ(deviation, static_cast<float>(landmark.depth_deviation));
+		EXPECT_EQ(id, landmark.id);
+	}
+	std::string rest;
+	EXPECT_FALSE(file >> rest) << rest;
 }
 
 TEST(Landmarks, PlyComesBack)

@@ -1,12 +1,16 @@
 #include "ExpectError.h"
-#include "RunProgram.h"
+#include "Refused.h"
 #include "ScanRoom.h"
 
+#include <viwo/core/AtomicFile.h>
 #include <viwo/mapping/MapPlot.h>
 #include <viwo/mapping/OctoMapRun.h>
 #include <viwo/mapping/OctreeFiles.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
 namespace viwo
@@ -33,6 +37,14 @@ MapPlot smallPlot()
 	path.points_m = {{-0.5, 0.5}, {2.5, 0.5}};
 	plot.layers.push_back(path);
 	return plot;
+}
+
+size_t countPixels(const cv::Mat& picture, const cv::Vec3b& bgr)
+{
+	size_t n = 0;
+	for (int y = 0; y < picture.rows; ++y)
+		for (int x = 0; x < picture.cols; ++x) n += picture.at<cv::Vec3b>(y, x) == bgr;
+	return n;
 }
 
 size_t count(const std::string& text, const std::string& part)
@@ -93,6 +105,139 @@ TEST(MapPlot, NothingToDraw)
 	EXPECT_FALSE(std::filesystem::exists(folder.file("a.png")));
 }
 
+TEST(MapPlot, APoseAloneIsADot)
+{
+	const TempFolder folder;
+	MapPlot plot;
+	PlotLayer path{"stands", {255, 0, 0}, PlotLayer::Kind::path, {{1, 2}}};
+	for (int poses = 1; poses < 3; ++poses, path.points_m.push_back(path.points_m[0]))
+	{
+		plot.layers = {path};
+		saveMapPlot(folder.file("p.svg"), plot);
+		EXPECT_EQ(count(readFile(folder.file("p.svg")), "<circle "), 1u);
+		saveMapPlot(folder.file("p.png"), plot);
+		EXPECT_GT(countPixels(cv::imread(folder.file("p.png")), {0, 0, 255}), 80u) << "the dot, and the legend's line of 24 x 3 pixels";
+	}
+}
+
+TEST(MapPlot, TextOfAnyBytes)
+{
+	const TempFolder folder;
+	MapPlot plot = smallPlot();
+	plot.title = "a\x01\xFF";
+	plot.layers[0].name = "\x1B[31m";
+	saveMapPlot(folder.file("p.png"), plot);
+	saveMapPlot(folder.file("p.svg"), plot);
+	const std::string svg = readFile(folder.file("p.svg"));
+	EXPECT_NE(svg.find(">a\xEF\xBF\xBD\xEF\xBF\xBD</text>"), std::string::npos);
+	EXPECT_EQ(svg.find('\x1B'), std::string::npos);
+}
+
+TEST(MapPlot, HugeExtents)
+{
+	const TempFolder folder;
+	MapPlot plot = smallPlot();
+	plot.layers[0].points_m.emplace_back(2000, 0.5);  // 20,010 cells of the map's
+	saveMapPlot(folder.file("p.png"), plot);
+	const cv::Mat picture = cv::imread(folder.file("p.png"));
+	EXPECT_GT(picture.cols, 4000);
+	EXPECT_LT(picture.cols, 6200);
+	plot.layers[0].points_m.back().x() = 1e6;
+	expectError([&] { saveMapPlot(folder.file("q.png"), plot); }, {"smaller than a pixel", "1000001 m"});
+	plot.layers[0].points_m.back().x() = 1e300;
+	expectError([&] { saveMapPlot(folder.file("q.png"), plot); }, {"drive", "1e+300"});
+	plot.map.reset();
+	expectError([&] { saveMapPlot(folder.file("q.svg"), plot); }, {"drive", "1e+300"});
+	plot.layers[0].points_m.back().x() = 1e7;
+	saveMapPlot(folder.file("p.svg"), plot);
+	EXPECT_NE(readFile(folder.file("p.svg")).find(">10000000</text>"), std::string::npos);
+}
+
+TEST(MapPlot, CoarserMapsLoseNoObstacle)
+{
+	OccupancyImage map = *smallPlot().map;
+	for (int x = 0; x < 3; ++x) map.cell(x, 0) = OccupancyImage::kUnknown;
+	map.cell(37, 17) = map.cell(38, 17) = OccupancyImage::kUnknown;
+	const OccupancyImage half = coarser(map, 3);
+	EXPECT_EQ(half.columns, 14);
+	EXPECT_EQ(half.rows, 7);
+	EXPECT_DOUBLE_EQ(half.resolution_m, 0.3);
+	EXPECT_EQ(half.cell(20 / 3, 15 / 3), OccupancyImage::kOccupied);
+	EXPECT_EQ(std::count(half.cells.begin(), half.cells.end(), OccupancyImage::kOccupied), 1);
+	EXPECT_EQ(std::count(half.cells.begin(), half.cells.end(), OccupancyImage::kUnknown), 0) << "each has a free cell, too";
+}
+
+TEST(MapPlot, DamagedMaps)
+{
+	const TempFolder folder;
+	writeFile(folder.file("m.yaml"),
+	          "image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.2\nnegate: 0\n");
+	writeFile(folder.file("m.pgm"), "P5\n2000000000 2000000000\n255\nx");
+	expectError([&] { loadMapServer(folder.file("m.yaml")); }, {"m.pgm", "ends too early"});
+	writeFile(folder.file("m.yaml"),
+	          "image: m.pgm\nresolution: 0.1\norigin: [1e300, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.2\nnegate: 0\n");
+	expectError([&] { loadMapServer(folder.file("m.yaml")); }, {"m.yaml", "'origin'"});
+}
+
+/** A wall of 21 voxels at 0.2 m, and a voxel at 1 m: each is seen in the slice that it is in, and both in a view between two heights. */
+TEST(PlotProgram, SlicesOfAnOctoMap)
+{
+	const TempFolder folder;
+	octomap::OcTree tree(0.1);
+	for (int x = 0; x <= 20; ++x)
+	{
+		tree.updateNode(octomap::point3d(0.1f * static_cast<float>(x) + 0.05f, 1.05f, 0.25f), true);
+		for (int y = 0; y < 10; ++y)
+			tree.updateNode(octomap::point3d(0.1f * static_cast<float>(x) + 0.05f, 0.1f * static_cast<float>(y) + 0.05f, 0.25f), false);
+	}
+	tree.updateNode(octomap::point3d(1.05f, 0.05f, 1.05f), true);
+	tree.updateNode(octomap::point3d(2.05f, 1.05f, 1.05f), false);
+	AtomicFile file(folder.file("m.ot"));
+	writeOctree(file.stream(), tree, OctreeFormat::ot);
+	file.commit();
+	const auto blackCells = [&](const std::vector<std::string>& heights)
+	{
+		std::vector<std::string> arguments{"-o", folder.file("p.png"), "--octomap", folder.file("m.ot")};
+		arguments.insert(arguments.end(), heights.begin(), heights.end());
+		expectDone(runProgram(VIWO_BINARY_DIR "/bin/viwo-plot", arguments));
+		const cv::Mat picture = cv::imread(folder.file("p.png"));
+		return static_cast<double>(countPixels(picture, {0, 0, 0}));
+	};
+	const double wall = blackCells({"--min-z", "0.25", "--max-z", "0.25"}), voxel_and_free = blackCells({"--min-z", "1", "--max-z", "1.1"}),
+	             both = blackCells({});
+	// The views are of the same 2.1 m: cells have floor(900 / 21) pixels, of which lines of the grid take some.
+	const double cell = 42 * 42;
+	std::cout << "[measured] occupied cells in the pictures: " << wall / cell << ", " << both / cell << "\n";
+	EXPECT_GT(wall / cell, 18.5);
+	EXPECT_LE(wall / cell, 21);
+	EXPECT_GT(voxel_and_free / cell, 0.8);
+	EXPECT_NEAR((both - wall) / cell, 1, 0.2);
+	const ProgramResult nothing = runProgram(
+	    VIWO_BINARY_DIR "/bin/viwo-plot", {"-o", folder.file("q.png"), "--octomap", folder.file("m.ot"), "--min-z", "3", "--max-z", "4"});
+	expectRefused(nothing, {"m.ot", "3.00 and 4.00 m", "0.20 and 1.10 m", "--min-z"});
+}
+
+TEST(PlotProgram, SameBytesTwiceAndBadValues)
+{
+	const ScanRoomFiles files;
+	const std::string program = VIWO_BINARY_DIR "/bin/viwo-plot";
+	for (const char* extension : {".png", ".svg"})
+	{
+		const std::string first = files.folder.file(std::string("a") + extension), second = files.folder.file(std::string("b") + extension);
+		for (const std::string& path : {first, second}) expectDone(runProgram(program, {"-o", path, "-t", files.tum, "--title", "drive"}));
+		EXPECT_FALSE(readFile(first).empty());
+		EXPECT_EQ(readFile(first), readFile(second));
+		const std::string full = files.folder.file(std::string("full") + extension);
+		std::filesystem::create_symlink("/dev/full", full);
+		expectRefused(runProgram(program, {"-o", full, "-t", files.tum}), {"/dev/full", "cannot write"});
+	}
+	for (const char* option : {"--min-z", "--max-z"})
+		expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.tum, option, "nan"}), {option});
+	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.tum, "--min-z", "3"}), {"--max-z", "--min-z"});
+	writeFile(files.folder.file("far.tum"), "1 0 0 0 0 0 0 1\n2 1e30 0 0 0 0 0 1\n");
+	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.folder.file("far.tum")}), {"far.tum", "1e+30"});
+}
+
 TEST(PlotProgram, MapOctoMapLandmarksAndTrajectories)
 {
 	const ScanRoomFiles files;
@@ -119,12 +264,7 @@ TEST(PlotProgram, MapOctoMapLandmarksAndTrajectories)
 	EXPECT_EQ(plot({"--octomap", files.folder.file("m.ot")}), of_map);
 	EXPECT_NE(plot({"--landmarks", files.folder.file("l.ply")}).find(">landmarks</text>"), std::string::npos);
 	const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part)
-	{
-		const ProgramResult result = runProgram(program, arguments);
-		EXPECT_NE(result.status, 0);
-		EXPECT_EQ(result.errorLines(), 1u) << result.err;
-		EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-	};
+	{ expectRefused(runProgram(program, arguments), {part}); };
 	const std::string out = files.folder.file("q.png");
 	refused({"-o", out}, "nothing to draw");
 	refused({"-o", out, "--map", files.folder.file("absent.yaml")}, "absent.yaml");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -122,22 +123,24 @@ void requireInputsAreKept(const CLI::App& cli)
 {
 	std::vector<std::string> inputs, outputs;
 	collectFiles(cli, inputs, outputs);
-	for (const std::string& output : outputs)
-		for (const std::string& input : inputs)
-		{
-			std::error_code ignored;
-			if (std::filesystem::equivalent(output, input, ignored))
-				throw UsageError(output + " would be overwritten, but is an input; give the output another name");
-		}
+	app::requireInputsAreKept(inputs, outputs);
 }
 
-CLI::Validator finiteNumber(const char* what, bool (*holds)(double))
+/** The shortest text of the number. */
+std::string textOf(double value)
+{
+	char text[32];
+	std::snprintf(text, sizeof text, "%g", value);
+	return text;
+}
+
+CLI::Validator finiteNumber(const std::string& what, const std::function<bool(double)>& holds)
 {
 	const auto check = [what, holds](std::string& text)
 	{
 		double value = 0;
 		const bool is_number = CLI::detail::lexical_cast(text, value);
-		return is_number && std::isfinite(value) && holds(value) ? std::string() : "'" + text + "' is not a finite number " + what;
+		return is_number && std::isfinite(value) && holds(value) ? std::string() : "'" + text + "' is not a finite number" + what;
 	};
 	return CLI::Validator(check, "");
 }
@@ -145,12 +148,27 @@ CLI::Validator finiteNumber(const char* what, bool (*holds)(double))
 
 CLI::Validator nonNegative()
 {
-	return finiteNumber("of at least 0", [](double value) { return value >= 0; });
+	return finiteNumber(" of at least 0", [](double value) { return value >= 0; });
 }
 
 CLI::Validator positive()
 {
-	return finiteNumber("above 0", [](double value) { return value > 0; });
+	return finiteNumber(" above 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator finite()
+{
+	return finiteNumber("", [](double) { return true; });
+}
+
+CLI::Validator between(double least, double most)
+{
+	return finiteNumber(" from " + textOf(least) + " to " + textOf(most), [=](double value) { return value >= least && value <= most; });
+}
+
+CLI::Validator inside(double low, double high)
+{
+	return finiteNumber(" above " + textOf(low) + " and below " + textOf(high), [=](double value) { return value > low && value < high; });
 }
 
 CLI::Validator seed()
@@ -196,6 +214,22 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 		               requireInputsAreKept(cli);
 		               return body();
 	               });
+}
+
+void requireInputsAreKept(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs)
+{
+	namespace fs = std::filesystem;
+	std::error_code ignored;
+	for (size_t i = 0; i < outputs.size(); ++i)
+	{
+		if (fs::exists(outputs[i], ignored) && !fs::is_regular_file(outputs[i], ignored)) continue;  // /dev/null, a pipe
+		for (const std::string& input : inputs)
+			if (fs::equivalent(outputs[i], input, ignored))
+				throw UsageError(outputs[i] + " would be overwritten, but is an input; give the output another name");
+		for (size_t j = 0; j < i; ++j)
+			if (fs::weakly_canonical(outputs[i], ignored) == fs::weakly_canonical(outputs[j], ignored))
+				throw UsageError(outputs[i] + " would be written twice; give each output a name of its own");
+	}
 }
 
 bool interrupted()

@@ -3,29 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace viwo
 {
+namespace
+{
+/** Bytes of the UTF-8 character that begins at `at`; 0 where there is none, or one that XML 1.0 forbids (names of files may hold any
+ * bytes).
+ */
+size_t characterLength(const std::string& text, size_t at)
+{
+	const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+	const unsigned first = byte(at);
+	if (first < 0x80) return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
+	const size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+	if (length == 0) return 0;
+	unsigned code = first & (0xFFu >> (length + 1));
+	for (size_t i = 1; i < length; ++i)
+	{
+		if ((byte(at + i) & 0xC0u) != 0x80u) return 0;
+		code = code << 6 | (byte(at + i) & 0x3Fu);
+	}
+	const bool shortest = length == 2 || code >= (length == 3 ? 0x800u : 0x10000u);
+	const bool allowed = (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF && code <= 0x10FFFF;
+	return shortest && allowed ? length : 0;
+}
+}  // namespace
+
 std::string escapedForXml(const std::string& text)
 {
+	static const std::map<char, const char*> entities{{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
 	std::string result;
-	for (const char c : text) switch (c)
-		{
-			case '&':
-				result += "&amp;";
-				break;
-			case '<':
-				result += "&lt;";
-				break;
-			case '>':
-				result += "&gt;";
-				break;
-			case '"':
-				result += "&quot;";
-				break;
-			default:
-				result += c;
-		}
+	for (size_t i = 0; i < text.size();)
+	{
+		const size_t length = characterLength(text, i);
+		if (const auto entity = entities.find(text[i]); entity != entities.end())
+			result += entity->second;
+		else if (length > 0)
+			result.append(text, i, length);
+		else
+			result += "\xEF\xBF\xBD";  // U+FFFD, the replacement character
+		i += std::max<size_t>(length, 1);
+	}
 	return result;
 }
 

@@ -1,54 +1,15 @@
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/PoseRows.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
 #include <viwo/core/Trajectory.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 namespace viwo
 {
-namespace
-{
-[[noreturn]] void failAt(const std::string& path, int line_number, const std::string& what)
-{
-	throw Error(path + ":" + std::to_string(line_number) + ": " + what);
-}
-
-double parseField(const std::string& word, const std::string& path, int line_number)
-{
-	const char* begin = word.data() + (word[0] == '+' ? 1 : 0);
-	const char* end = word.data() + word.size();
-	double value = 0;
-	const auto result = std::from_chars(begin, end, value);
-	if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-		failAt(path, line_number, "'" + word + "' is not a finite number");
-	return value;
-}
-
-StampedPose parseLine(const std::string& line, const std::string& path, int line_number)
-{
-	std::istringstream stream(line);
-	std::vector<std::string> words;
-	for (std::string word; stream >> word;) words.push_back(word);
-	if (words.size() != 8)
-		failAt(path, line_number,
-		       std::to_string(words.size()) + " columns; a TUM trajectory has the eight: t x y z qx qy qz qw, with spaces between");
-	const auto t_ns = parseSeconds(words[0]);
-	if (!t_ns) failAt(path, line_number, "'" + words[0] + "' is not a time in seconds");
-	double v[7];
-	for (size_t i = 0; i < 7; i++) v[i] = parseField(words[i + 1], path, line_number);
-	const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-	if (std::abs(q.norm() - 1) > 0.01) failAt(path, line_number, "the quaternion (columns 5 to 8) has not unit length");
-	return {*t_ns, Pose3(q.normalized(), Eigen::Vector3d(v[0], v[1], v[2]))};
-}
-}  // namespace
-
 double coveredDuration_s(const std::vector<int64_t>& stamps_ns, double max_gap_s)
 {
 	std::vector<double> intervals_s;
@@ -65,23 +26,23 @@ double coveredDuration_s(const std::vector<int64_t>& stamps_ns, double max_gap_s
 
 Trajectory Trajectory::loadTum(const std::string& path)
 {
-	std::ifstream file(path);
-	if (!file || file.peek() == std::ifstream::traits_type::eof())
-		throw Error(path + ": cannot read this trajectory, or it is empty; check its name");
+	TextRows rows(path, TextRows::Split::blanks);
 	Trajectory trajectory;
-	int line_number = 0;
-	for (std::string line; std::getline(file, line);)
+	while (rows.next())
 	{
-		line_number++;
-		const size_t begin = line.find_first_not_of(" \t\r");
-		if (begin == std::string::npos || line[begin] == '#') continue;
-		const StampedPose pose = parseLine(line, path, line_number);
-		if (!trajectory.empty() && pose.t_ns <= trajectory.poses_.back().t_ns)
-			failAt(path, line_number, "stamp not later than that of the pose before; sort the file by time and remove doubles");
-		trajectory.poses_.push_back(pose);
+		rows.expectWords(8, false, "a TUM trajectory has t x y z qx qy qz qw, with blanks between");
+		const Eigen::Vector3d p(rows.number(1), rows.number(2), rows.number(3));
+		appendPose(rows, {rows.seconds_ns(0), Pose3(rows.rotation(7, 4, 5, 6), p)}, trajectory);
 	}
 	if (trajectory.empty()) throw Error(path + ": no pose in this trajectory");
 	return trajectory;
+}
+
+void appendPose(const TextRows& rows, const StampedPose& pose, Trajectory& trajectory)
+{
+	if (!trajectory.empty() && pose.t_ns <= trajectory.poses().back().t_ns)
+		rows.fail("stamp not later than that of the pose before; sort the file by time and remove doubles");
+	trajectory.push_back(pose);
 }
 
 void Trajectory::saveTum(const std::string& path) const

@@ -1,11 +1,9 @@
-#include "CsvTable.h"
-
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
 #include <viwo/mapping/Landmarks.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -109,9 +107,8 @@ std::vector<KeyFramePose> loadKeyFrames(const std::string& csv_path)
 	std::vector<KeyFramePose> frames;
 	while (table.next())
 	{
-		const Eigen::Quaterniond q(table.number(7), table.number(4), table.number(5), table.number(6));
-		if (std::abs(q.norm() - 1) > 0.01) table.fail("the quaternion has not unit length");
-		frames.push_back({table.integer(0), Pose3(q.normalized(), Eigen::Vector3d(table.number(1), table.number(2), table.number(3)))});
+		const Eigen::Vector3d p(table.number(1), table.number(2), table.number(3));
+		frames.push_back({table.integer(0), Pose3(table.rotation(7, 4, 5, 6), p)});
 	}
 	return frames;
 }

@@ -3,9 +3,11 @@
 #include <viwo/core/Svg.h>
 #include <viwo/mapping/MapPlot.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
-#include <limits>
 
 #include "PlotCanvas.h"
 
@@ -16,8 +18,51 @@ namespace
 constexpr int kLongSide_px = 900, kShortestSide_px = 260;
 constexpr int kLeft_px = 60, kRight_px = 20, kTop_px = 36, kAxis_px = 44, kLegendLine_px = 20;
 constexpr int kGridLines = 10;
+constexpr int kLargestSide_px = 6000;
+constexpr double kLeastMargin_m = 0.5, kFarthest_m = 1e8;
 constexpr double kSwatch_px = 24, kCharacter_px = 8.5;
 constexpr PlotColour kInk{32, 33, 36}, kMuted{95, 99, 104}, kGrid{178, 184, 194}, kPaper{255, 255, 255};
+
+using Bounds = Eigen::AlignedBox2d;
+
+Bounds boundsOf(const OccupancyImage& map)
+{
+	const Eigen::Vector2d low(map.min_x_m, map.min_y_m);
+	return {low, low + map.resolution_m * Eigen::Vector2d(map.columns, map.rows)};
+}
+
+/** Of what is drawn, m. */
+Bounds boundsOf(const MapPlot& plot)
+{
+	Bounds bounds;
+	if (plot.map) bounds.extend(boundsOf(*plot.map));
+	for (const PlotLayer& layer : plot.layers)
+		for (const Eigen::Vector2d& p : layer.points_m)
+		{
+			if (!p.allFinite()) continue;
+			if (p.cwiseAbs().maxCoeff() > kFarthest_m)
+			{
+				char text[100];
+				std::snprintf(text, sizeof text, ": x = %.4g m, y = %.4g m cannot be drawn; correct the file", p.x(), p.y());
+				throw Error((layer.file.empty() ? layer.name : layer.file) + text);
+			}
+			bounds.extend(p);
+		}
+	if (bounds.isEmpty()) throw Error("nothing to draw: map and trajectories are empty");
+	return bounds;
+}
+
+/** A map with cells so large that the whole picture has a size that programs open. */
+MapPlot ofBearableSize(MapPlot plot)
+{
+	if (!plot.map) return plot;
+	const double cells = boundsOf(plot).sizes().maxCoeff() / plot.map->resolution_m, factor = std::ceil(cells / kLargestSide_px);
+	if (factor > std::max(plot.map->columns, plot.map->rows))
+		throw Error("beside all else, which spans " + onGrid(cells * plot.map->resolution_m, 1) +
+		            " m, the map is smaller than a pixel; draw them without each other");
+	if (factor > 1) plot.map = coarser(*plot.map, static_cast<int>(factor));
+	return plot;
+}
 
 /** Where metres fall on the paper. Cells of a map cover whole pixels. */
 class Paper
@@ -25,25 +70,11 @@ class Paper
    public:
 	explicit Paper(const MapPlot& plot)
 	{
-		Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-		const auto take = [&](const Eigen::Vector2d& p)
-		{
-			if (!p.allFinite()) return;
-			low = low.cwiseMin(p);
-			high = high.cwiseMax(p);
-		};
-		if (plot.map)
-		{
-			take({plot.map->min_x_m, plot.map->min_y_m});
-			take({plot.map->min_x_m + plot.map->columns * plot.map->resolution_m,
-			      plot.map->min_y_m + plot.map->rows * plot.map->resolution_m});
-		}
-		for (const PlotLayer& layer : plot.layers)
-			for (const Eigen::Vector2d& p : layer.points_m) take(p);
-		if (!low.allFinite()) throw Error("nothing to draw: map and trajectories are empty");
+		const Bounds bounds = boundsOf(plot);
+		Eigen::Vector2d low = bounds.min(), high = bounds.max();
 		if (!plot.map)
 		{
-			const double margin_m = 0.05 * std::max({high.x() - low.x(), high.y() - low.y(), 0.1});
+			const double margin_m = std::max(0.05 * (high - low).maxCoeff(), kLeastMargin_m);
 			low.array() -= margin_m;
 			high.array() += margin_m;
 		}
@@ -132,12 +163,21 @@ void drawScaleBar(const Paper& paper, PlotCanvas& canvas)
 	canvas.text({0.5 * (left + right), y - 8}, onGrid(paper.step_m(), paper.step_m()) + " m", kInk, TextAnchor::middle);
 }
 
+/** No line would show it. */
+bool standsStill(const std::vector<Eigen::Vector2d>& piece)
+{
+	return !piece.empty() && std::all_of(piece.begin(), piece.end(), [&](const auto& p) { return (p - piece.front()).norm() < 1; });
+}
+
 void drawLayer(const PlotLayer& layer, const Paper& paper, PlotCanvas& canvas)
 {
 	std::vector<Eigen::Vector2d> piece;
 	const auto flush = [&]
 	{
-		if (piece.size() > 1) canvas.polyline(piece, layer.colour, 2);
+		if (standsStill(piece))
+			canvas.dot(piece.front(), layer.colour, 4);
+		else if (!piece.empty())
+			canvas.polyline(piece, layer.colour, 2);
 		piece.clear();
 	};
 	for (const Eigen::Vector2d& p_m : layer.points_m)
@@ -176,11 +216,12 @@ PlotColour plotColour(size_t index)
 	return kColours[index % (sizeof kColours / sizeof *kColours)];
 }
 
-void saveMapPlot(const std::string& path, const MapPlot& plot)
+void saveMapPlot(const std::string& path, const MapPlot& given)
 {
 	const std::string extension = std::filesystem::path(path).extension().string();
 	if (extension != ".png" && extension != ".svg") throw Error(path + ": a picture's name ends in .png or .svg");
 	AtomicFile file(path);
+	const MapPlot plot = ofBearableSize(given);
 	const Paper paper(plot);
 	const std::vector<LegendPlace> places = legendPlaces(plot, paper);
 	const double legend_end = places.empty() ? paper.bottom() + kAxis_px : places.back().y;

@@ -2,12 +2,15 @@
 #include <viwo/core/Error.h>
 #include <viwo/mapping/OccupancyImage.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
+
+#include "CommitTogether.h"
 
 namespace viwo
 {
@@ -36,6 +39,23 @@ OccupancyImage occupancyImage(const mrpt::maps::COccupancyGridMap2D& grid)
 	return image;
 }
 
+OccupancyImage coarser(const OccupancyImage& map, int factor)
+{
+	OccupancyImage result = map;
+	result.columns = (map.columns + factor - 1) / factor;
+	result.rows = (map.rows + factor - 1) / factor;
+	result.resolution_m = factor * map.resolution_m;
+	result.cells.assign(static_cast<size_t>(result.columns) * static_cast<size_t>(result.rows), OccupancyImage::kUnknown);
+	for (int y = 0; y < map.rows; ++y)
+		for (int x = 0; x < map.columns; ++x)
+		{
+			uint8_t& cell = result.cell(x / factor, y / factor);
+			const uint8_t part = map.cell(x, y);
+			if (part == OccupancyImage::kOccupied || (part == OccupancyImage::kFree && cell == OccupancyImage::kUnknown)) cell = part;
+		}
+	return result;
+}
+
 void saveMapServer(const std::string& yaml_path, const OccupancyImage& image)
 {
 	const std::filesystem::path pgm_path = std::filesystem::path(yaml_path).replace_extension(".pgm");
@@ -48,8 +68,7 @@ void saveMapServer(const std::string& yaml_path, const OccupancyImage& image)
 	              image.resolution_m, image.min_x_m, image.min_y_m);
 	AtomicFile yaml(yaml_path);
 	yaml.stream() << "image: " << pgm_path.filename().string() << "\n" << text;
-	pgm.commit();
-	yaml.commit();
+	commitTogether({&pgm, &yaml});
 }
 
 namespace
@@ -96,6 +115,9 @@ void readPgm(const std::string& path, OccupancyImage& image)
 	file >> image.columns >> image.rows >> most;
 	if (!file || magic != "P5" || image.columns <= 0 || image.rows <= 0 || most != 255) throw Error(path + ": not a binary PGM of 8 bits");
 	file.get();
+	// Before memory is asked for: the header may promise anything.
+	const std::uintmax_t bytes = static_cast<std::uintmax_t>(image.columns) * static_cast<std::uintmax_t>(image.rows);
+	if (bytes > std::filesystem::file_size(path)) throw Error(path + ": the image ends too early");
 	image.cells.resize(static_cast<size_t>(image.columns) * static_cast<size_t>(image.rows));
 	if (!file.read(reinterpret_cast<char*>(image.cells.data()), static_cast<std::streamsize>(image.cells.size())))
 		throw Error(path + ": the image ends too early");
@@ -112,6 +134,8 @@ OccupancyImage loadMapServer(const std::string& yaml_path)
 	const bool negate = numbers(keys, "negate", 1, yaml_path)[0] != 0;
 	if (!(image.resolution_m > 0)) throw Error(yaml_path + ": key 'resolution' must be above 0");
 	if (origin[2] != 0) throw Error(yaml_path + ": key 'origin': a map that is turned cannot be read");
+	for (const double value : origin)
+		if (std::abs(value) > 1e8) throw Error(yaml_path + ": key 'origin' is out of all reason");
 	image.min_x_m = origin[0];
 	image.min_y_m = origin[1];
 	std::istringstream name(keys.count("image") ? keys.at("image") : "");

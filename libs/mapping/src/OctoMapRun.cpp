@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "CommitTogether.h"
 #include "ScanGraphLog.h"
 
 namespace viwo
@@ -47,18 +48,39 @@ class MapOutputs
 	template <class Tree>
 	void write(Tree& tree, const OctoMapRunOptions& o)
 	{
-		if (!o.grid.empty()) saveMapServer(o.grid, projection(tree, o.grid_min_z_m, o.grid_max_z_m));
+		std::optional<OccupancyImage> grid;
+		std::string no_grid;
+		if (!o.grid.empty()) grid = gridOf(tree, o, no_grid);
 		if (ply_) writeOccupiedPly(ply_->stream(), tree);
 		if (ot_) writeOctree(ot_->stream(), tree, OctreeFormat::ot);
 		if (bt_) writeOctree(bt_->stream(), tree, OctreeFormat::bt);
-		if (scan_graph) scan_graph->commit();
+		std::vector<AtomicFile*> files;
+		if (scan_graph) files.push_back(&scan_graph->file());
 		for (std::optional<AtomicFile>* file : {&ply_, &ot_, &bt_})
-			if (*file) (*file)->commit();
+			if (*file) files.push_back(&**file);
+		commitTogether(files);
+		if (!no_grid.empty()) throw Error(no_grid);
+		if (grid) saveMapServer(o.grid, *grid);
 	}
 
 	std::optional<ScanGraphLog> scan_graph;
 
    private:
+	/** The tree has taken long, and is kept whatever heights were asked for. */
+	template <class Tree>
+	static std::optional<OccupancyImage> gridOf(const Tree& tree, const OctoMapRunOptions& o, std::string& why_not)
+	{
+		try
+		{
+			return projection(tree, o.grid_slice);
+		}
+		catch (const Error& e)
+		{
+			why_not = o.grid + ": not written: " + e.what() + "; set --grid-min-z and --grid-max-z. " + o.output + " is there";
+			return std::nullopt;
+		}
+	}
+
 	std::optional<AtomicFile> ot_, bt_, ply_;
 };
 
@@ -91,10 +113,11 @@ struct Span
 /** External files of depth images and clouds are looked for where MRPT's own programs look. */
 void findExternalFiles(const std::string& rawlog)
 {
-	fs::path base(rawlog);
-	while (base.has_extension() && (base.extension() == ".gz" || base.extension() == ".rawlog")) base.replace_extension();
-	const std::string folder = base.string() + "_Images";
-	if (fs::is_directory(folder)) mrpt::img::CImage::setImagesPathBase(folder);
+	for (fs::path base(rawlog); base.extension() == ".gz" || base.extension() == ".rawlog";)
+	{
+		const std::string folder = base.replace_extension().string() + "_Images";
+		if (fs::is_directory(folder)) return mrpt::img::CImage::setImagesPathBase(folder);
+	}
 }
 
 template <class Tree>

@@ -1,4 +1,5 @@
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/mapping/OctreeFiles.h>
 
 #include <algorithm>
@@ -49,15 +50,69 @@ void putColour(std::string& bytes, const octomap::ColorOcTreeNode& node)
 template <class Tree>
 constexpr bool kHasColour = std::is_same_v<Tree, octomap::ColorOcTree>;
 
-/** All leaves that reach into the layers [first, last]. */
+/** Layers of voxels, both ends included. */
+struct Layers
+{
+	int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+};
+
+constexpr Layers kAllLayers{-kCentreKey, kCentreKey - 1};
+
+/** All leaves that reach into the layers. */
 template <class Tree, class Visit>
-void visitLayers(const Tree& tree, int first, int last, const Visit& visit)
+void visitLayers(const Tree& tree, const Layers& layers, const Visit& visit)
 {
 	for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
 	{
 		const LeafExtent extent = extentOf(leaf, tree.getTreeDepth());
-		if (extent.first[2] <= last && extent.first[2] + extent.size > first) visit(extent, tree.isNodeOccupied(*leaf));
+		if (extent.first[2] <= layers.last && extent.first[2] + extent.size > layers.first) visit(extent, tree.isNodeOccupied(*leaf));
 	}
+}
+
+/** From the lowest to the highest voxel. */
+template <class Tree>
+Layers knownLayers(const Tree& tree, bool occupied_only)
+{
+	Layers found;
+	visitLayers(tree, kAllLayers,
+	            [&](const LeafExtent& e, bool occupied)
+	            {
+		            if (occupied_only && !occupied) return;
+		            found.first = std::min(found.first, e.first[2]);
+		            found.last = std::max(found.last, e.first[2] + e.size - 1);
+	            });
+	return found;
+}
+
+int layerAt(double layers)
+{
+	return static_cast<int>(std::clamp(std::floor(layers), -1.0 * kCentreKey, kCentreKey - 1.0));
+}
+
+template <class Tree>
+Layers layersOf(const Tree& tree, const HeightSlice& slice)
+{
+	constexpr double kFlat_m = 0.3;
+	const double resolution_m = tree.getResolution();
+	if (!slice.min_z_m && !slice.max_z_m)
+	{
+		const Layers occupied = knownLayers(tree, true);
+		if (occupied.first <= occupied.last && (occupied.last - occupied.first) * resolution_m < kFlat_m) return kAllLayers;
+	}
+	Layers layers;
+	layers.first = layerAt(slice.min_z_m.value_or(HeightSlice::kMin_z_m) / resolution_m + 1e-9);
+	layers.last = std::max(layers.first, layerAt(slice.max_z_m.value_or(HeightSlice::kMax_z_m) / resolution_m - 1e-9));
+	return layers;
+}
+
+template <class Tree>
+std::string nothingKnown(const Tree& tree, const Layers& asked)
+{
+	const auto between = [&](const Layers& layers)
+	{ return fixed(layers.first * tree.getResolution(), 2) + " and " + fixed((layers.last + 1) * tree.getResolution(), 2) + " m"; };
+	const Layers known = knownLayers(tree, false);
+	if (known.first > known.last) return "the octree is empty";
+	return "nothing is known between the heights " + between(asked) + ": the map lies between " + between(known);
 }
 
 // liboctomap's own functions for whole files print remarks on stderr, so the headers are written and read here.
@@ -93,7 +148,7 @@ std::optional<OctreeHeader> readHeader(std::istream& file)
 }
 
 template <class Tree>
-std::optional<OccupancyImage> readProjection(std::istream& file, const OctreeHeader& header, double min_z_m, double max_z_m)
+std::optional<OccupancyImage> readProjection(std::istream& file, const OctreeHeader& header, const HeightSlice& slice)
 {
 	Tree tree(header.resolution_m);
 	if (header.format == OctreeFormat::bt)
@@ -101,12 +156,7 @@ std::optional<OccupancyImage> readProjection(std::istream& file, const OctreeHea
 	else
 		tree.readData(file);
 	if (!file) return std::nullopt;
-	return projection(tree, min_z_m, max_z_m);
-}
-
-int layerOf(double layers)
-{
-	return static_cast<int>(std::clamp(std::floor(layers), -1.0 * kCentreKey, kCentreKey - 1.0));
+	return projection(tree, slice);
 }
 }  // namespace
 
@@ -160,12 +210,12 @@ void writeOccupiedPly(std::ostream& out, const Tree& tree)
 }
 
 template <class Tree>
-OccupancyImage projection(const Tree& tree, double min_z_m, double max_z_m)
+OccupancyImage projection(const Tree& tree, const HeightSlice& slice)
 {
 	const double resolution_m = tree.getResolution();
-	const int first = layerOf(min_z_m / resolution_m + 1e-9), last = std::max(first, layerOf(max_z_m / resolution_m - 1e-9));
+	const Layers layers = layersOf(tree, slice);
 	int min[] = {kCentreKey, kCentreKey}, max[] = {-kCentreKey, -kCentreKey};
-	visitLayers(tree, first, last,
+	visitLayers(tree, layers,
 	            [&](const LeafExtent& e, bool)
 	            {
 		            for (size_t i = 0; i < 2; ++i)
@@ -174,8 +224,7 @@ OccupancyImage projection(const Tree& tree, double min_z_m, double max_z_m)
 			            max[i] = std::max(max[i], e.first[i] + e.size);
 		            }
 	            });
-	if (max[0] <= min[0])
-		throw Error("the octree knows nothing between the heights " + std::to_string(min_z_m) + " and " + std::to_string(max_z_m) + " m");
+	if (max[0] <= min[0]) throw Error(nothingKnown(tree, layers));
 	OccupancyImage image;
 	image.columns = max[0] - min[0];
 	image.rows = max[1] - min[1];
@@ -183,7 +232,7 @@ OccupancyImage projection(const Tree& tree, double min_z_m, double max_z_m)
 	image.min_y_m = min[1] * resolution_m;
 	image.resolution_m = resolution_m;
 	image.cells.assign(static_cast<size_t>(image.columns) * static_cast<size_t>(image.rows), OccupancyImage::kUnknown);
-	visitLayers(tree, first, last,
+	visitLayers(tree, layers,
 	            [&](const LeafExtent& e, bool occupied)
 	            {
 		            for (int y = e.first[1] - min[1]; y < e.first[1] - min[1] + e.size; ++y)
@@ -199,7 +248,7 @@ OccupancyImage projection(const Tree& tree, double min_z_m, double max_z_m)
 	return image;
 }
 
-OccupancyImage loadProjection(const std::string& path, double min_z_m, double max_z_m)
+OccupancyImage loadProjection(const std::string& path, const HeightSlice& slice)
 {
 	std::ifstream file(path, std::ios::binary);
 	if (!file) throw Error(path + ": cannot read this octree; check its name");
@@ -207,8 +256,8 @@ OccupancyImage loadProjection(const std::string& path, double min_z_m, double ma
 	try
 	{
 		const std::optional<OctreeHeader> header = readHeader(file);
-		if (header && header->id == "OcTree") image = readProjection<octomap::OcTree>(file, *header, min_z_m, max_z_m);
-		if (header && header->id == "ColorOcTree") image = readProjection<octomap::ColorOcTree>(file, *header, min_z_m, max_z_m);
+		if (header && header->id == "OcTree") image = readProjection<octomap::OcTree>(file, *header, slice);
+		if (header && header->id == "ColorOcTree") image = readProjection<octomap::ColorOcTree>(file, *header, slice);
 	}
 	catch (const Error& e)
 	{
@@ -243,6 +292,6 @@ template void writeOctree(std::ostream&, octomap::OcTree&, OctreeFormat);
 template void writeOctree(std::ostream&, octomap::ColorOcTree&, OctreeFormat);
 template void writeOccupiedPly(std::ostream&, const octomap::OcTree&);
 template void writeOccupiedPly(std::ostream&, const octomap::ColorOcTree&);
-template OccupancyImage projection(const octomap::OcTree&, double, double);
-template OccupancyImage projection(const octomap::ColorOcTree&, double, double);
+template OccupancyImage projection(const octomap::OcTree&, const HeightSlice&);
+template OccupancyImage projection(const octomap::ColorOcTree&, const HeightSlice&);
 }  // namespace viwo

@@ -1,7 +1,5 @@
-#include "CsvTable.h"
-
+#include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
-#include <viwo/core/TimeText.h>
 #include <viwo/mapping/PoseFlags.h>
 
 #include <algorithm>
@@ -19,6 +17,12 @@ size_t indexFrom(int64_t t_ns, const Trajectory& trajectory)
 }
 }  // namespace
 
+const std::vector<std::string>& knownPoseFlags()
+{
+	static const std::vector<std::string> words{"good", "degenerate", "odometry_only", "tracking", "from_wheels", "dead_reckoning"};
+	return words;
+}
+
 PoseFlags PoseFlags::load(const std::string& csv_path, const Trajectory& trajectory, const std::vector<std::string>& bad)
 {
 	CsvTable table(csv_path, {"t_s", "flag"});
@@ -27,10 +31,9 @@ PoseFlags PoseFlags::load(const std::string& csv_path, const Trajectory& traject
 	size_t matched = 0;
 	while (table.next())
 	{
-		const auto t_ns = parseSeconds(table.cell(0));
-		if (!t_ns) table.fail("'" + table.cell(0) + "' is not a time in seconds");
-		const size_t i = indexFrom(*t_ns, trajectory);
-		if (i == trajectory.size() || trajectory.poses()[i].t_ns != *t_ns) continue;
+		const int64_t t_ns = table.seconds_ns(0);
+		const size_t i = indexFrom(t_ns, trajectory);
+		if (i == trajectory.size() || trajectory.poses()[i].t_ns != t_ns) continue;
 		++matched;
 		flags.bad_[i] = std::find(bad.begin(), bad.end(), table.cell(1)) != bad.end();
 	}

@@ -9,6 +9,7 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <filesystem>
+#include <map>
 
 namespace viwo
 {
@@ -21,6 +22,7 @@ using namespace mrpt::obs;
 void bringAlong(const fs::path& from, const fs::path& to)
 {
 	std::error_code error;
+	if (fs::equivalent(from, to, error)) return;
 	fs::remove(to, error);
 	fs::create_hard_link(from, to, error);
 	if (error) fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
@@ -62,7 +64,7 @@ class Copy
 		if (result_.poses == 0)
 			throw Error("no pose of the trajectory (" + formatSeconds(poses.front().t_ns) + " to " + formatSeconds(poses.back().t_ns) +
 			            " s) lies within " + options_.input);
-		bringAlongOtherFiles();
+		bringAlongFiles();
 		writer_.close();
 		return result_;
 	}
@@ -83,27 +85,34 @@ class Copy
 
 	void writeObservation(const CObservation::Ptr& observation)
 	{
+		if (observation->sensorLabel == options_.label)
+			throw Error(options_.input + ": label " + options_.label +
+			            " is taken: by poses that were put in before, or by a sensor; give another one with --label");
 		++result_.observations;
 		const auto image = std::dynamic_pointer_cast<CObservationImage>(observation);
 		if (image && image->image.isExternallyStored())
 		{
 			const fs::path file = image->image.getExternalStorageFile();
-			bringAlong(file, fs::path(writer_.imagesFolder()) / file.filename());
-			image->image.setExternalStorage(file.filename().string());
-			++result_.images;
+			const auto known = files_.emplace(file.filename().string(), file).first;
+			if (known->second != file)
+				throw Error(options_.input + ": two images have the name " + known->first + ", in " + known->second.parent_path().string() +
+				            " and in " + file.parent_path().string() + ", and cannot go into one folder; rename one of them");
+			image->image.setExternalStorage(known->first);
 		}
 		writer_.write(*observation);
 	}
 
-	/** Depth images and clouds name files of the same folder. */
-	void bringAlongOtherFiles()
+	/** Images, and what depth images and clouds name in the same folder. */
+	void bringAlongFiles()
 	{
 		const fs::path folder =
 		    reader_.imagesFolder().empty() ? fs::path(options_.input).replace_extension("").string() + "_Images" : reader_.imagesFolder();
-		if (!fs::is_directory(folder)) return;
-		for (const auto& entry : fs::directory_iterator(folder))
-			if (const fs::path to = fs::path(writer_.imagesFolder()) / entry.path().filename(); entry.is_regular_file() && !fs::exists(to))
-				bringAlong(entry.path(), to);
+		if (fs::is_directory(folder))
+			for (const auto& entry : fs::directory_iterator(folder))
+				if (entry.is_regular_file()) files_.emplace(entry.path().filename().string(), entry.path());
+		if (files_.empty()) return;
+		result_.images_folder = writer_.imagesFolder();
+		for (const auto& [name, file] : files_) bringAlong(file, fs::path(result_.images_folder) / name);
 	}
 
 	const RawlogWithPosesOptions& options_;
@@ -111,6 +120,7 @@ class Copy
 	RawlogReader reader_;
 	RawlogWriter writer_;
 	RawlogWithPosesResult result_;
+	std::map<std::string, fs::path> files_;  //!< by the name they are to have
 };
 }  // namespace
 

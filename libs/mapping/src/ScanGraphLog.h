@@ -21,7 +21,7 @@ class ScanGraphLog
 		for (const Ray& ray : scan.hits) line("", ray.end - origin, "\n");
 	}
 
-	void commit() { file_.commit(); }
+	AtomicFile& file() { return file_; }
 
    private:
 	void line(const char* before, const octomap::point3d& p, const char* after)

@@ -1,8 +1,8 @@
-#include "TextRows.h"
-
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/PoseRows.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
 #include <viwo/mapping/TrajectoryFormats.h>
@@ -12,33 +12,15 @@
 #include <filesystem>
 #include <map>
 
+#include "CommitTogether.h"
+
 namespace viwo
 {
 namespace
 {
-Pose3 unitPose(const TextRows& rows, const Eigen::Quaterniond& q, const Eigen::Vector3d& p)
-{
-	if (std::abs(q.norm() - 1) > 0.01) rows.fail("the quaternion has not unit length");
-	return Pose3(q.normalized(), p);
-}
-
-void append(const TextRows& rows, int64_t t_ns, const Pose3& T, Trajectory& trajectory)
-{
-	if (!trajectory.empty() && t_ns <= trajectory.poses().back().t_ns)
-		rows.fail("stamp not later than that of the pose before; sort the file by time and remove doubles");
-	trajectory.push_back({t_ns, T});
-}
-
-int64_t stampOf(const TextRows& rows, size_t word)
-{
-	const auto t_ns = parseSeconds(rows.words()[word]);
-	if (!t_ns) rows.fail("'" + rows.words()[word] + "' is not a time in seconds");
-	return *t_ns;
-}
-
 Trajectory loadKitti(const std::string& path, const std::string& times_path)
 {
-	TextRows times(times_path, TextRows::Split::blanks), rows(path, TextRows::Split::blanks);
+	TextRows rows(path, TextRows::Split::blanks), times(times_path, TextRows::Split::blanks);
 	Trajectory trajectory;
 	while (rows.next())
 	{
@@ -57,7 +39,7 @@ Trajectory loadKitti(const std::string& path, const std::string& times_path)
 			}
 		if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 0.01 || R.col(0).cross(R.col(1)).dot(R.col(2)) < 0)
 			rows.fail("the first three columns are no rotation");
-		append(times, stampOf(times, 0), Pose3(Eigen::Quaterniond(R).normalized(), p), trajectory);
+		appendPose(times, {times.seconds_ns(0), Pose3(Eigen::Quaterniond(R).normalized(), p)}, trajectory);
 	}
 	if (times.next()) times.fail("there are fewer poses in " + path + " than times here");
 	return trajectory;
@@ -70,8 +52,8 @@ Trajectory loadEuroc(const std::string& path)
 	while (rows.next())
 	{
 		rows.expectWords(8, true, "t_ns,x,y,z,qw,qx,qy,qz");
-		const auto at = [&](size_t word) { return rows.number(word); };
-		append(rows, rows.integer(0), unitPose(rows, {at(4), at(5), at(6), at(7)}, {at(1), at(2), at(3)}), trajectory);
+		const Eigen::Vector3d p(rows.number(1), rows.number(2), rows.number(3));
+		appendPose(rows, {rows.integer(0), Pose3(rows.rotation(4, 5, 6, 7), p)}, trajectory);
 	}
 	return trajectory;
 }
@@ -84,29 +66,24 @@ Trajectory loadMrpt(const std::string& path)
 	{
 		rows.expectWords(7, false, "t x y z yaw pitch roll");
 		const mrpt::poses::CPose3D pose(rows.number(1), rows.number(2), rows.number(3), rows.number(4), rows.number(5), rows.number(6));
-		append(rows, stampOf(rows, 0), fromMrpt(pose), trajectory);
+		appendPose(rows, {rows.seconds_ns(0), fromMrpt(pose)}, trajectory);
 	}
 	return trajectory;
 }
 
 std::map<int64_t, int64_t> loadGraphStamps(const std::string& path)
 {
-	TextRows rows(path, TextRows::Split::commas_and_blanks);
+	CsvTable table(path, {"id", "t_ns"});
 	std::map<int64_t, int64_t> stamps;
-	while (rows.next())
-	{
-		if (rows.words()[0] == "id") continue;
-		rows.expectWords(2, true, "id,t_ns");
-		stamps[rows.integer(0)] = rows.integer(1);
-	}
+	while (table.next()) stamps[table.integer(0)] = table.integer(1);
 	return stamps;
 }
 
 Trajectory loadG2o(const std::string& path, const std::string& stamps_path)
 {
+	TextRows rows(path, TextRows::Split::blanks);
 	const std::map<int64_t, int64_t> stamps = loadGraphStamps(stamps_path);
 	std::map<int64_t, Pose3> poses;
-	TextRows rows(path, TextRows::Split::blanks);
 	while (rows.next())
 	{
 		const bool planar = rows.words()[0] == "VERTEX_SE2";
@@ -116,7 +93,7 @@ Trajectory loadG2o(const std::string& path, const std::string& stamps_path)
 		if (stamp == stamps.end()) rows.fail("vertex " + rows.words()[1] + " has no stamp in " + stamps_path);
 		const auto at = [&](size_t word) { return rows.number(word); };
 		const Pose3 T = planar ? Pose3(Eigen::Quaterniond(Eigen::AngleAxisd(at(4), Eigen::Vector3d::UnitZ())), {at(2), at(3), 0})
-		                       : unitPose(rows, {at(8), at(5), at(6), at(7)}, {at(2), at(3), at(4)});
+		                       : Pose3(rows.rotation(8, 5, 6, 7), {at(2), at(3), at(4)});
 		if (!poses.emplace(stamp->second, T).second) rows.fail("two vertices have the stamp " + std::to_string(stamp->second));
 	}
 	Trajectory trajectory;
@@ -142,8 +119,7 @@ void saveKitti(const std::string& path, const Trajectory& trajectory)
 		for (int i = 0; i < 3; ++i) print(file, "%.12e %.12e %.12e %.12e%s", R(i, 0), R(i, 1), R(i, 2), pose.T.p[i], i < 2 ? " " : "\n");
 		times.stream() << formatSeconds(pose.t_ns) << "\n";
 	}
-	times.commit();
-	file.commit();
+	commitTogether({&times, &file});
 }
 
 void saveEuroc(const std::string& path, const Trajectory& trajectory)
@@ -194,8 +170,7 @@ void saveG2o(const std::string& path, const Trajectory& trajectory)
 			for (int c = r; c < 6; ++c) file.stream() << (r == c ? " 1" : " 0");
 		file.stream() << "\n";
 	}
-	stamps.commit();
-	file.commit();
+	commitTogether({&stamps, &file});
 }
 }  // namespace
 
@@ -217,15 +192,32 @@ std::optional<TrajectoryFormat> trajectoryFormatOf(const std::string& path)
 	return trajectoryFormat(extension.empty() ? extension : extension.substr(1));
 }
 
+namespace
+{
+std::string besides(const std::string& path, const std::string& ending)
+{
+	return std::filesystem::path(path).replace_extension().string() + ending;
+}
+}  // namespace
+
 std::string stampsPathOf(const std::string& path, TrajectoryFormat format)
 {
-	const std::string stem = std::filesystem::path(path).replace_extension().string();
-	return format == TrajectoryFormat::kitti ? stem + "_times.txt" : format == TrajectoryFormat::g2o ? stem + "_stamps.csv" : std::string();
+	if (format == TrajectoryFormat::kitti) return besides(path, "_kitti_times.txt");
+	return format == TrajectoryFormat::g2o ? besides(path, "_g2o_stamps.csv") : std::string();
+}
+
+std::string existingStampsPathOf(const std::string& path, TrajectoryFormat format)
+{
+	const std::string ours = stampsPathOf(path, format);
+	if (ours.empty() || std::filesystem::exists(ours) || !std::filesystem::exists(path)) return ours;
+	const std::string theirs = besides(path, format == TrajectoryFormat::kitti ? "_times.txt" : "_stamps.csv");
+	if (std::filesystem::exists(theirs)) return theirs;
+	throw Error(path + ": this format has no stamps, and neither " + ours + " nor " + theirs + " is there; name it with --stamps");
 }
 
 Trajectory loadTrajectory(const std::string& path, TrajectoryFormat format, const std::string& given_stamps_path)
 {
-	const std::string stamps_path = given_stamps_path.empty() ? stampsPathOf(path, format) : given_stamps_path;
+	const std::string stamps_path = given_stamps_path.empty() ? existingStampsPathOf(path, format) : given_stamps_path;
 	Trajectory trajectory;
 	switch (format)
 	{
@@ -275,12 +267,13 @@ Trajectory resampled(const Trajectory& trajectory, double rate_hz, double max_ga
 	Trajectory result;
 	if (trajectory.empty()) return result;
 	const int64_t first_ns = trajectory.poses().front().t_ns, last_ns = trajectory.poses().back().t_ns;
-	for (int64_t k = 0;; ++k)
+	const double span_s = secondsBetween(first_ns, last_ns);
+	for (int64_t k = 0; static_cast<double>(k) <= span_s * rate_hz + 1e-6; ++k)
 	{
 		const int64_t t_ns = first_ns + nanoseconds(static_cast<double>(k) / rate_hz);
-		if (t_ns > last_ns) return result;
 		if (const auto T = trajectory.at(t_ns, max_gap_s)) result.push_back({t_ns, *T});
 	}
+	return result;
 }
 
 Trajectory resampledLike(const Trajectory& trajectory, const Trajectory& other, double max_gap_s)

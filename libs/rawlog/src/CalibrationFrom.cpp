@@ -2,6 +2,8 @@
 #include <viwo/rawlog/ObservationAdapter.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
+#include "ObservationSource.h"
+
 namespace viwo
 {
 namespace
@@ -12,6 +14,48 @@ Pose3 finitePose(const mrpt::poses::CPose3D& T_Ox, const std::string& label)
 	if (!pose.p.allFinite() || !pose.R.coeffs().allFinite())
 		throw Error("label " + label + ": the pose of the sensor on the robot is not finite; correct it with rawlog-edit --sensors-pose");
 	return pose;
+}
+
+/** The first observations with a stamp under the two labels. Images are not looked for: a calibration needs none. */
+struct FirstObservations
+{
+	explicit FirstObservations(const AdapterOptions& options) : options(options) {}
+
+	void take(const mrpt::obs::CObservation::Ptr& observation)
+	{
+		auto& sensor = counts.sensors[{observation->sensorLabel, shortClassName(*observation)}];
+		++sensor.read;
+		if (observation->timestamp == INVALID_TIMESTAMP)
+		{
+			++sensor.unstamped;
+			return;
+		}
+		if (!image && observation->sensorLabel == options.cam_label)
+			image = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(observation);
+		if (!imu && observation->sensorLabel == options.imu_label) imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation);
+	}
+
+	const AdapterOptions& options;
+	mrpt::obs::CObservationImage::Ptr image;
+	mrpt::obs::CObservationIMU::Ptr imu;
+	RawlogCounts counts;
+};
+
+/** False at the end. */
+bool readEntry(ObservationSource& source, bool allow_truncated, FirstObservations& first)
+{
+	std::vector<mrpt::obs::CObservation::Ptr> observations;
+	bool more = false;
+	try
+	{
+		more = source.readEntry(observations);
+	}
+	catch (const Error&)
+	{
+		if (!source.truncated() || !allow_truncated) throw;
+	}
+	for (const auto& observation : observations) first.take(observation);
+	return more;
 }
 }  // namespace
 
@@ -37,25 +81,15 @@ Calibration calibrationFrom(const AdapterOptions& options, const mrpt::obs::CObs
 Calibration readCalibration(const std::string& rawlog_path, const AdapterOptions& options, bool needs_camera, bool needs_imu,
                             bool allow_truncated)
 {
-	RawlogReaderOptions reader_options;
-	reader_options.labels = {options.cam_label, options.imu_label};
-	reader_options.allow_truncated = allow_truncated;
-	reader_options.skip_missing_images = true;
-	RawlogReader reader(rawlog_path, reader_options);
-	mrpt::obs::CObservationImage::Ptr image;
-	mrpt::obs::CObservationIMU::Ptr imu;
-	while ((needs_camera && !image) || (needs_imu && !imu))
-	{
-		const auto observation = reader.next();
-		if (!observation)
-			throw missingSensorError(rawlog_path, needs_camera && !image ? SensorKind::camera : SensorKind::imu, options, reader.counts());
-		if (!image && observation->sensorLabel == options.cam_label)
-			image = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(observation);
-		if (!imu && observation->sensorLabel == options.imu_label) imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation);
-	}
+	FirstObservations first(options);
+	ObservationSource source(rawlog_path, options.odometry_label);
+	const auto complete = [&] { return (!needs_camera || first.image) && (!needs_imu || first.imu); };
+	while (!complete() && readEntry(source, allow_truncated, first)) continue;
+	if (!complete())
+		throw missingSensorError(rawlog_path, needs_camera && !first.image ? SensorKind::camera : SensorKind::imu, options, first.counts);
 	try
 	{
-		return calibrationFrom(options, needs_camera ? image.get() : nullptr, needs_imu ? imu.get() : nullptr);
+		return calibrationFrom(options, needs_camera ? first.image.get() : nullptr, needs_imu ? first.imu.get() : nullptr);
 	}
 	catch (const Error& e)
 	{
@@ -78,6 +112,6 @@ Error missingSensorError(const std::string& rawlog_path, SensorKind kind, const 
 		return Error(rawlog_path + ": none of the " + std::to_string(there->second.read) + " observations (" + names.class_name +
 		             ") under label " + names.label + " has a time stamp; record them with their times");
 	return Error(rawlog_path + ": no " + names.what + " (" + names.class_name + ") under label " + names.label +
-	             "; labels here: " + counts.describe() + "; set " + names.key + " in the configuration");
+	             "; labels here: " + counts.describe() + "; set " + names.key + " to one of them");
 }
 }  // namespace viwo

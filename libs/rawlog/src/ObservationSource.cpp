@@ -70,6 +70,13 @@ void refuseOtherCompression(const std::string& path, const std::string& first_by
 }
 }  // namespace
 
+std::string shortClassName(const CObservation& observation)
+{
+	const std::string name = observation.GetRuntimeClass()->className;
+	const size_t colon = name.rfind(':');
+	return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+
 ObservationSource::ObservationSource(const std::string& path, const std::string& action_odometry_label)
     : path_((requireReadableFile(path), path)), archive_(path), action_odometry_(action_odometry_label)
 {

@@ -12,6 +12,9 @@
 
 namespace viwo
 {
+/** Without namespace. */
+std::string shortClassName(const mrpt::obs::CObservation& observation);
+
 /** The observations of a rawlog of either format in the order of the file. */
 class ObservationSource
 {

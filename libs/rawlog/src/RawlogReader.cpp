@@ -16,16 +16,6 @@ using mrpt::obs::CObservation;
 
 namespace viwo
 {
-namespace
-{
-std::string shortClassName(const CObservation& observation)
-{
-	const std::string name = observation.GetRuntimeClass()->className;
-	const size_t colon = name.rfind(':');
-	return colon == std::string::npos ? name : name.substr(colon + 1);
-}
-}  // namespace
-
 std::string RawlogCounts::describe() const
 {
 	std::string text;

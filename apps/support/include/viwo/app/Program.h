@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 /** What every program of viwo does alike: arguments, one-line errors on stderr, exit status 0 done / 1 failed / 2 bad usage. */
 namespace viwo::app
@@ -28,7 +29,10 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body);
 /** @name Checks of an option's value that CLI11 lacks: its ranges let "nan" pass, and name the largest double in 300 digits. @{ */
 CLI::Validator nonNegative();  //!< a finite number, not below 0
 CLI::Validator positive();     //!< a finite number above 0
-CLI::Validator seed();         //!< a whole number of at most 18 digits
+CLI::Validator finite();
+CLI::Validator between(double least, double most);  //!< a number, the limits included
+CLI::Validator inside(double low, double high);     //!< a number, the limits excluded
+CLI::Validator seed();                              //!< a whole number of at most 18 digits
 CLI::Validator notEmpty();
 /** @} */
 
@@ -36,6 +40,11 @@ CLI::Validator notEmpty();
  *  A second signal ends the program at once.
  */
 bool interrupted();
+
+/** For files whose names are not themselves arguments, but made of them.
+ *  @throws UsageError when an output exists and is one of the inputs, or two outputs are the same file.
+ */
+void requireInputsAreKept(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /** Whether --quiet was given: results and errors only, no progress and no remarks. */
 bool quiet();

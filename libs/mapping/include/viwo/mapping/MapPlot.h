@@ -30,9 +30,12 @@ struct PlotLayer
 	PlotColour colour;
 	Kind kind = Kind::path;
 	std::vector<Eigen::Vector2d> points_m;  //!< x, y in the map
+	std::string file = {};                  //!< where they are from, for messages
 };
 
-/** A map from above with layers on top: equal axes, a grid with its metres, a bar of scale, a legend. */
+/** A map from above with layers on top: equal axes, a grid with its metres, a bar of scale, a legend. Maps of more than 6000 cells a side,
+ *  together with what else is drawn, are drawn with coarser ones.
+ */
 struct MapPlot
 {
 	std::string title;
@@ -41,7 +44,7 @@ struct MapPlot
 };
 
 /** As .png or .svg, by the name's extension; the same plot gives the same bytes.
- *  @throws Error: another extension, nothing to draw, not writable.
+ *  @throws Error: another extension, nothing to draw, a coordinate that is out of all reason, not writable.
  */
 void saveMapPlot(const std::string& path, const MapPlot& plot);
 }  // namespace viwo

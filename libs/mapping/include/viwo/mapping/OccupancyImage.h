@@ -29,6 +29,9 @@ struct OccupancyImage
 /** MRPT's probabilities, cut where map_server cuts: above 0.65 and below 0.35. */
 OccupancyImage occupancyImage(const mrpt::maps::COccupancyGridMap2D& grid);
 
+/** Cells of factor x factor of the map's: occupied where any of those is, free where any is free and none occupied. */
+OccupancyImage coarser(const OccupancyImage& map, int factor);
+
 /** `X.yaml` and `X.pgm` beside it: what ROS's map_server, nav2 and MRPT's ros-map-yaml2mrpt read. The image first, so that a YAML file
  *  always has one.
  *  @throws Error when a file cannot be written.
@@ -39,5 +42,4 @@ void saveMapServer(const std::string& yaml_path, const OccupancyImage& image);
  *  @throws Error naming file and key.
  */
 OccupancyImage loadMapServer(const std::string& yaml_path);
-
 }  // namespace viwo

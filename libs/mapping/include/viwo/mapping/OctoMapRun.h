@@ -2,6 +2,7 @@
 
 #include <viwo/mapping/ObservationRays.h>
 #include <viwo/mapping/OctreeBuilder.h>
+#include <viwo/mapping/OctreeFiles.h>
 
 #include <functional>
 #include <string>
@@ -24,7 +25,7 @@ struct OctoMapRunOptions
 	std::string scan_graph;          //!< text for octomap's log2graph; empty: none
 	std::string ply;                 //!< occupied voxels; empty: none
 	std::string grid;                //!< map_server's YAML; empty: none
-	double grid_min_z_m = 0.05, grid_max_z_m = 2;
+	HeightSlice grid_slice;
 	std::string flags;  //!< trajectory_covariance.csv; empty: all poses are good
 	std::vector<std::string> bad_flags = {"odometry_only"};
 	std::string landmarks_dir;  //!< output of viwo-odometry; empty: none
@@ -57,7 +58,7 @@ struct OctoMapRunResult
 
 /** Rawlog and trajectory to an OctoMap. Files appear when they are whole; the same input gives the same bytes, whatever the number of
  *  threads. Memory is that of the map.
- *  @throws Error with one line for the user.
+ *  @throws Error with one line for the user; where the grid alone cannot be made, when all else has been written.
  */
 OctoMapRunResult runOctoMap(const OctoMapRunOptions& options, const OctoMapRunHooks& hooks = {});
 }  // namespace viwo

@@ -7,6 +7,9 @@
 
 namespace viwo
 {
+/** Words that programs of viwo flag poses with: viwo-odometry its status, viwo-groundtruth how far a pose is to be trusted. */
+const std::vector<std::string>& knownPoseFlags();
+
 /** Which poses of a trajectory are not to be trusted. */
 class PoseFlags
 {

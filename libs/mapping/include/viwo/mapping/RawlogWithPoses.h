@@ -19,13 +19,14 @@ struct RawlogWithPosesOptions
 
 struct RawlogWithPosesResult
 {
-	size_t observations = 0, poses = 0, images = 0;
+	size_t observations = 0, poses = 0;
+	std::string images_folder;  //!< of the copy; empty when it needs none
 };
 
 /** Copies a rawlog with the trajectory put in as CObservationRobotPose, all in the order of time, so that RawLogViewer and others see both.
  *  Only poses within the rawlog's span go in. External files come along in `<output>_Images/`, as links to the same files where the disk
  *  allows it. The copy is observation-only.
- *  @throws Error: no pose within the span, output = input, any of reader and writer.
+ *  @throws Error: no pose within the span, a label that is taken, output = input, any of reader and writer. There is no rawlog then.
  */
 RawlogWithPosesResult writeRawlogWithPoses(const RawlogWithPosesOptions& options, const Trajectory& trajectory);
 

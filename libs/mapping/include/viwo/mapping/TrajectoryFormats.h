@@ -24,12 +24,15 @@ std::optional<TrajectoryFormat> trajectoryFormat(const std::string& word);
 /** By the extension: .tum, .kitti, .csv (EuRoC), .mrpt, .g2o. */
 std::optional<TrajectoryFormat> trajectoryFormatOf(const std::string& path);
 
-/** Where the stamps of a trajectory without any are by default: `X_times.txt` (KITTI: seconds, a line a pose), `X_stamps.csv` (g2o:
- *  `id,t_ns`). Empty for formats that have them.
+/** Where the stamps of a trajectory without any are written: `X_kitti_times.txt` (seconds, a line a pose), `X_g2o_stamps.csv` (`id,t_ns`).
+ *  Empty for formats that have them. Neither is a name that another program of viwo writes.
  */
 std::string stampsPathOf(const std::string& path, TrajectoryFormat format);
 
-/** @param stamps_path for formats without stamps; empty: stampsPathOf(). @throws Error naming file and line. */
+/** Where they are read: what stampsPathOf() says, or, where there is only that, `X_times.txt` and `X_stamps.csv` as others name them. */
+std::string existingStampsPathOf(const std::string& path, TrajectoryFormat format);
+
+/** @param stamps_path for formats without stamps; empty: existingStampsPathOf(). @throws Error naming file and line. */
 Trajectory loadTrajectory(const std::string& path, TrajectoryFormat format, const std::string& stamps_path = {});
 
 /** Writes the stamps, too, where the format has none. @throws Error when a file cannot be written. */

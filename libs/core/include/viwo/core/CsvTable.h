@@ -1,6 +1,6 @@
 #pragma once
 
-#include "TextRows.h"
+#include <viwo/core/TextRows.h>
 
 #include <string>
 #include <vector>
@@ -21,6 +21,11 @@ class CsvTable
 	const std::string& cell(size_t column) const { return rows_.words()[places_[column]]; }
 	double number(size_t column) const { return rows_.number(places_[column]); }
 	int64_t integer(size_t column) const { return rows_.integer(places_[column]); }
+	int64_t seconds_ns(size_t column) const { return rows_.seconds_ns(places_[column]); }
+	Eigen::Quaterniond rotation(size_t w, size_t x, size_t y, size_t z) const
+	{
+		return rows_.rotation(places_[w], places_[x], places_[y], places_[z]);
+	}
 	/** @} */
 
 	/** @throws Error that names file and line. */

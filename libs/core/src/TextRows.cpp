@@ -1,6 +1,6 @@
-#include "TextRows.h"
-
 #include <viwo/core/Error.h>
+#include <viwo/core/TextRows.h>
+#include <viwo/core/TimeText.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +11,7 @@ namespace viwo
 namespace
 {
 constexpr const char* kBlanks = " \t\r";
+constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
 std::vector<std::string> wordsOf(const std::string& line, const char* separators)
 {
@@ -57,7 +58,7 @@ bool TextRows::next()
 {
 	for (std::string line; std::getline(file_, line);)
 	{
-		++line_;
+		if (++line_ == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
 		const size_t first = line.find_first_not_of(kBlanks);
 		if (first == std::string::npos || line[first] == '#') continue;
 		words_ = split_ == Split::cells ? cellsOf(line) : wordsOf(line, split_ == Split::blanks ? kBlanks : ", \t\r");
@@ -84,6 +85,22 @@ int64_t TextRows::integer(size_t word) const
 	int64_t value = 0;
 	if (!parse(words_[word], value)) fail("'" + words_[word] + "' is not a whole number");
 	return value;
+}
+
+int64_t TextRows::seconds_ns(size_t word) const
+{
+	const auto t_ns = parseSeconds(words_[word]);
+	if (!t_ns) fail("'" + words_[word] + "' is not a time in seconds");
+	return *t_ns;
+}
+
+Eigen::Quaterniond TextRows::rotation(size_t w, size_t x, size_t y, size_t z) const
+{
+	const Eigen::Quaterniond q(number(w), number(x), number(y), number(z));
+	if (std::abs(q.norm() - 1) > 0.01)
+		fail("the quaternion (columns " + std::to_string(std::min(w, x) + 1) + " to " + std::to_string(std::max(w, z) + 1) +
+		     ") has not unit length");
+	return q.normalized();
 }
 
 void TextRows::fail(const std::string& what) const

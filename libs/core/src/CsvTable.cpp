@@ -1,5 +1,4 @@
-#include "CsvTable.h"
-
+#include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
 
 #include <algorithm>

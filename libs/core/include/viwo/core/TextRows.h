@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -7,7 +8,9 @@
 
 namespace viwo
 {
-/** Lines of words; blank lines and '#' lines are skipped. */
+/** Lines of words of a text file; blank lines and '#' lines are skipped. Line ends may be those of Windows, and the file may begin with
+ *  UTF-8's byte order mark, as its editors write it.
+ */
 class TextRows
 {
    public:
@@ -33,6 +36,12 @@ class TextRows
 
 	/** @throws Error for a word that is not a whole number. */
 	int64_t integer(size_t word) const;
+
+	/** Of a word that is a time in seconds, ns. @throws Error for any other. */
+	int64_t seconds_ns(size_t word) const;
+
+	/** Of the words that are its parts. @throws Error unless it has unit length, within 1 %. */
+	Eigen::Quaterniond rotation(size_t w, size_t x, size_t y, size_t z) const;
 
 	/** @throws Error that names file and line. */
 	[[noreturn]] void fail(const std::string& what) const;
