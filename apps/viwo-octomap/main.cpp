@@ -126,6 +126,12 @@ std::string withExtension(const std::string& path, const char* extension)
 	return std::filesystem::path(path).replace_extension(extension).string();
 }
 
+/** What --both writes beside the output. */
+std::string otherOctree(const std::string& path)
+{
+	return withExtension(path, octreeFormatOf(path) == OctreeFormat::bt ? ".ot" : ".bt");
+}
+
 void requireRisingLimits(const OctoMapRunOptions& run)
 {
 	const HeightSlice& grid = run.grid_slice;
@@ -149,7 +155,7 @@ void interpret(Arguments& a)
 	}
 	requireRisingLimits(run);
 	std::vector<std::string> outputs{run.output};
-	if (run.both) outputs.push_back(withExtension(run.output, octreeFormatOf(run.output) == OctreeFormat::bt ? ".ot" : ".bt"));
+	if (run.both) outputs.push_back(otherOctree(run.output));
 	if (!run.grid.empty() && std::filesystem::path(run.grid).extension() != ".yaml")
 		throw app::UsageError(run.grid + ": a grid map's name ends in .yaml");
 	if (!run.grid.empty()) outputs.insert(outputs.end(), {run.grid, withExtension(run.grid, ".pgm")});
@@ -169,6 +175,7 @@ void interpret(Arguments& a)
 
 void print(const Arguments& a, const OctoMapRunResult& r)
 {
+	if (a.run.both) std::printf("%s and ", otherOctree(a.run.output).c_str());
 	std::printf("%s: %zu observations, %zu rays; %zu occupied and %zu free leaves; %.1f s, %.0f MiB\n", a.run.output.c_str(), r.used,
 	            r.rays, r.occupied, r.free, r.wall_time_s, peakMemory_mb());
 	std::fflush(stdout);

@@ -36,7 +36,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    "Examples:\n"
 	    "  viwo-plot -o map.png --map truth/map.yaml -t truth/trajectory.tum\n"
 	    "  viwo-plot -o slice.svg --octomap run.bt --min-z 0.2 --max-z 0.2 -t out/trajectory.tum\n"
-	    "  viwo-plot -o landmarks.png --landmarks out/landmarks.ply -t out/trajectory.tum -t truth.tum\n"
+	    "  viwo-plot -o landmarks.png --landmarks out/landmarks.ply -t out/trajectory.tum -t out_wheel/trajectory.tum\n"
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
 }
 

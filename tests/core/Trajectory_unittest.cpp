@@ -92,7 +92,7 @@ TEST(Trajectory, BadTumNamesFileAndLine)
 	expectBad("# only\n", "", "no pose");
 	expectBad(good + "2 0 0 0 0 0 0\n", ":2", "7 columns");
 	expectBad(good + "2 0 0 0 0 0 0 1 9\n", ":2", "9 columns");
-	expectBad(good + "2,0,0,0,0,0,0,1\n", ":2", "1 columns");
+	expectBad(good + "2,0,0,0,0,0,0,1\n", ":2", "1 column;");
 	expectBad(good + "# c\n2 0 x 0 0 0 0 1\n", ":3", "'x'");
 	expectBad(good + "2 0 nan 0 0 0 0 1\n", ":2", "nan");
 	expectBad(good + "2 0 0 0 0 0 0 inf\n", ":2", "inf");

@@ -108,10 +108,10 @@ TEST(EurocImporter, SaysWhatIsWrongInOneLine)
 		expectError([&] { importEuroc(job); }, parts);
 		write(folder, name, before);
 	};
-	damaged("mav0/imu0/data.csv", "#t\n1,2,3,4,5,6\n", {"imu0/data.csv:2", "6 columns instead of at least 7"});
+	damaged("mav0/imu0/data.csv", "#t\n1,2,3,4,5,6\n", {"imu0/data.csv:2", "6 columns; expected at least 7"});
 	damaged("mav0/imu0/data.csv", "2,2,3,4,5,6,7\n1,2,3,4,5,6,7\n", {"imu0/data.csv:2", "not later"});
 	damaged("mav0/imu0/data.csv", "1,2,3,nan,5,6,7\n", {"imu0/data.csv:1", "'nan' is not a finite number"});
-	damaged("mav0/imu0/data.csv", "1.5,2,3,4,5,6,7\n", {"imu0/data.csv:1", "not a time in nanoseconds"});
+	damaged("mav0/imu0/data.csv", "1.5,2,3,4,5,6,7\n", {"imu0/data.csv:1", "'1.5' is not a whole number"});
 	damaged("mav0/imu0/data.csv", "#t\n", {"imu0/data.csv", "no data"});
 	damaged("mav0/odom0/data.csv", "1,2\n", {"odom0/data.csv:1", "v [m/s]"});
 	damaged("mav0/cam0/data.csv", "1,absent.png\n", {"cam0/data.csv:1", "absent.png is missing"});
@@ -124,7 +124,7 @@ TEST(EurocImporter, SaysWhatIsWrongInOneLine)
 	damaged("mav0/imu0/sensor.yaml", "a: [b\n", {"imu0/sensor.yaml:", "not valid YAML"});
 	damaged("mav0/odom0/sensor.yaml", "T_BS: [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n", {"odom0/sensor.yaml: T_BS", "not orthonormal"});
 	std::filesystem::remove(folder.file("mav0/imu0/data.csv"));
-	expectError([&] { importEuroc(job); }, {"imu0/data.csv", "cannot be read"});
+	expectError([&] { importEuroc(job); }, {"imu0/data.csv", "cannot read"});
 	EXPECT_FALSE(std::filesystem::exists(folder.file("x.rawlog")));
 }
 

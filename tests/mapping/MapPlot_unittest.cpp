@@ -74,6 +74,19 @@ TEST(MapPlot, PngShowsMapPathGridAndBar)
 	EXPECT_NEAR(static_cast<double>(black), 22 * 22, 100) << "a line of the grid crosses it";
 }
 
+TEST(MapPlot, BeyondTheMapNothingIsKnown)
+{
+	const TempFolder folder;
+	MapPlot plot = smallPlot();
+	plot.layers[0].points_m = {{-3, 0.5}, {2.5, 0.5}};  // the map begins at -1 m
+	saveMapPlot(folder.file("p.png"), plot);
+	const cv::Mat picture = cv::imread(folder.file("p.png"));
+	const double grey = static_cast<double>(countPixels(picture, {205, 205, 205})), cell = 15 * 15;
+	EXPECT_NEAR(grey / cell, 20 * 20, 40) << "2 m x 2 m of unknown, less the lines of the grid";
+	saveMapPlot(folder.file("p.svg"), plot);
+	EXPECT_NE(readFile(folder.file("p.svg")).find("fill=\"#cdcdcd\""), std::string::npos);
+}
+
 TEST(MapPlot, SvgHasTheSameAndIsWellFormed)
 {
 	const TempFolder folder;

@@ -180,6 +180,7 @@ TEST(OctoMapRun, OctomapToolsReadBothFormats)
 	EXPECT_EQ(differences(*readTree(files.folder.file("edited.bt")), *whole), 0u);
 	const ProgramResult compared = run("compare_octrees", {ot, files.folder.file("again.ot")});
 	std::cout << "[measured] compare_octrees: " << compared.out.substr(compared.out.rfind("KL")) << std::flush;
+	EXPECT_NE(compared.out.find("KLD: 0\n"), std::string::npos) << compared.out;
 	run("bt2vrml", {bt});
 	EXPECT_NE(readFile(bt + ".wrl").find("VRML"), std::string::npos);
 }

@@ -70,7 +70,8 @@ bool TextRows::next()
 void TextRows::expectWords(size_t count, bool at_least, const std::string& meaning) const
 {
 	if (words_.size() == count || (at_least && words_.size() > count)) return;
-	fail(std::to_string(words_.size()) + " columns; expected " + std::to_string(count) + ": " + meaning);
+	fail(std::to_string(words_.size()) + (words_.size() == 1 ? " column" : " columns") + "; expected " + (at_least ? "at least " : "") +
+	     std::to_string(count) + ": " + meaning);
 }
 
 double TextRows::number(size_t word) const
@@ -103,8 +104,13 @@ Eigen::Quaterniond TextRows::rotation(size_t w, size_t x, size_t y, size_t z) co
 	return q.normalized();
 }
 
+std::string TextRows::where() const
+{
+	return path_ + ":" + std::to_string(line_);
+}
+
 void TextRows::fail(const std::string& what) const
 {
-	throw Error(path_ + ":" + std::to_string(line_) + ": " + what);
+	throw Error(where() + ": " + what);
 }
 }  // namespace viwo

@@ -133,6 +133,14 @@ std::vector<LegendPlace> legendPlaces(const MapPlot& plot, const Paper& paper)
 	return places;
 }
 
+/** What lies beyond the map is as unknown as what is unknown within. */
+void drawMap(const OccupancyImage& map, const Paper& paper, PlotCanvas& canvas)
+{
+	const uint8_t unknown = OccupancyImage::kUnknown;
+	canvas.fill({kLeft_px, kTop_px}, {paper.right() - kLeft_px, paper.bottom() - kTop_px}, {unknown, unknown, unknown});
+	canvas.cells(paper.at({map.min_x_m, map.min_y_m + map.rows * map.resolution_m}), map, paper.cell_px());
+}
+
 void drawGrid(const Paper& paper, PlotCanvas& canvas)
 {
 	const double step = paper.step_m();
@@ -227,9 +235,7 @@ void saveMapPlot(const std::string& path, const MapPlot& given)
 	const double legend_end = places.empty() ? paper.bottom() + kAxis_px : places.back().y;
 	const int width = static_cast<int>(std::max(paper.right(), kLongSide_px * 0.5)) + kRight_px, height = static_cast<int>(legend_end) + 14;
 	const auto canvas = extension == ".png" ? pngCanvas(width, height) : svgCanvas(width, height);
-	if (plot.map)
-		canvas->cells(paper.at({plot.map->min_x_m, plot.map->min_y_m + plot.map->rows * plot.map->resolution_m}), *plot.map,
-		              paper.cell_px());
+	if (plot.map) drawMap(*plot.map, paper, *canvas);
 	drawGrid(paper, *canvas);
 	for (const PlotLayer& layer : plot.layers) drawLayer(layer, paper, *canvas);
 	drawScaleBar(paper, *canvas);

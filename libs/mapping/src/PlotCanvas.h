@@ -19,6 +19,7 @@ class PlotCanvas
    public:
 	virtual ~PlotCanvas() = default;
 
+	virtual void fill(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, PlotColour colour) = 0;
 	/** Cells of a map, `factor` pixels each, upper left corner at `corner`. */
 	virtual void cells(const Eigen::Vector2d& corner, const OccupancyImage& map, int factor) = 0;
 	virtual void polyline(const std::vector<Eigen::Vector2d>& points, PlotColour colour, double width) = 0;

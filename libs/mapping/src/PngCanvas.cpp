@@ -18,7 +18,7 @@ constexpr double kFontScale = 0.45;
 std::string encoded(const cv::Mat& picture)
 {
 	std::vector<uchar> bytes;
-	if (!cv::imencode(".png", picture, bytes)) throw Error("the picture cannot be coded as PNG");
+	if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9})) throw Error("the picture cannot be coded as PNG");
 	return {bytes.begin(), bytes.end()};
 }
 
@@ -31,6 +31,13 @@ class PngCanvas : public PlotCanvas
 {
    public:
 	PngCanvas(int width_px, int height_px) : picture_(height_px, width_px, CV_8UC3, cv::Scalar(255, 255, 255)) {}
+
+	void fill(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, PlotColour colour) override
+	{
+		const auto pixels = [](const Eigen::Vector2d& v)
+		{ return cv::Point(static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))); };
+		cv::rectangle(picture_, cv::Rect(pixels(corner), pixels(corner + size)), bgr(colour), cv::FILLED);
+	}
 
 	void cells(const Eigen::Vector2d& corner, const OccupancyImage& map, int factor) override
 	{

@@ -33,6 +33,12 @@ class SvgCanvas : public PlotCanvas
    public:
 	SvgCanvas(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}
 
+	void fill(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, PlotColour colour) override
+	{
+		body_ += "<rect x=\"" + svgNumber(corner.x()) + "\" y=\"" + svgNumber(corner.y()) + "\" width=\"" + svgNumber(size.x()) +
+		         "\" height=\"" + svgNumber(size.y()) + "\" fill=\"" + hex(colour) + "\"/>\n";
+	}
+
 	void cells(const Eigen::Vector2d& corner, const OccupancyImage& map, int factor) override
 	{
 		body_ += "<image x=\"" + svgNumber(corner.x()) + "\" y=\"" + svgNumber(corner.y()) + "\" width=\"" +

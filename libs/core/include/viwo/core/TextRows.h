@@ -43,6 +43,9 @@ class TextRows
 	/** Of the words that are its parts. @throws Error unless it has unit length, within 1 %. */
 	Eigen::Quaterniond rotation(size_t w, size_t x, size_t y, size_t z) const;
 
+	/** "file:line". */
+	std::string where() const;
+
 	/** @throws Error that names file and line. */
 	[[noreturn]] void fail(const std::string& what) const;
 
