@@ -69,9 +69,13 @@ void declareOthers(CLI::App& cli, Arguments& a)
 	map.add_option("-i,--input", a.input, "Rawlog")->required();
 	map.add_option("-t,--trajectory", a.trajectory, "Trajectory of the vehicle (TUM)")->required();
 	map.add_option("-o,--output", a.output, "CSimpleMap (.simplemap)")->required();
-	map.add_option("--keyframes", a.key_frames, "keyframes.csv of viwo-odometry; without it, key frames by the way");
-	map.add_option("--distance", a.distance_m, "A key frame after this way, m")->check(app::positive())->capture_default_str();
-	map.add_option("--angle", a.angle_deg, "Or after this turn, deg")->check(app::positive())->capture_default_str();
+	auto* key_frames = map.add_option("--keyframes", a.key_frames, "keyframes.csv of viwo-odometry; without it, key frames by the way");
+	map.add_option("--distance", a.distance_m, "A key frame after this way, m")
+	    ->excludes(key_frames)
+	    ->check(app::positive())
+	    ->capture_default_str();
+	map.add_option("--angle", a.angle_deg, "Or after this turn, deg")->excludes(key_frames)->check(app::positive())->capture_default_str();
+	map.add_flag("--allow-truncated", a.allow_truncated, "Take a truncated rawlog as far as it goes");
 	map.add_option("--labels", a.map_labels, "Sensor labels to keep; by default all images, scans and clouds")->delimiter(',');
 	map.add_option("--max-offset", a.max_offset_s, "Longest time from a key frame to its observations, s")
 	    ->check(app::positive())
@@ -166,6 +170,7 @@ int convertToSimpleMap(const Arguments& a)
 	options.labels = a.map_labels;
 	options.max_offset_s = a.max_offset_s;
 	options.max_gap_s = a.max_gap_s;
+	options.allow_truncated = a.allow_truncated;
 	if (a.key_frames.empty())
 		options.key_frames_ns = keyFramesAlong(trajectory, a.distance_m, a.angle_deg * kDegree);
 	else

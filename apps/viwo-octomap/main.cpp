@@ -32,10 +32,13 @@ void declareOutputs(CLI::App& cli, Arguments& a)
 	cli.add_flag("--both", a.run.both, "Write both .bt and .ot");
 	cli.add_option("--scan-graph", a.run.scan_graph, "Write the scans as text for octomap's log2graph, too (.log)");
 	cli.add_option("--to-ply", a.run.ply, "Write the centres of the occupied voxels, too");
-	cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)");
+	CLI::Option* grid =
+	    cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)");
 	cli.add_option("--grid-min-z", a.run.grid_slice.min_z_m, "From this height on, m (0.05; of a flat map its lowest)")
 	    ->check(app::finite());
-	cli.add_option("--grid-max-z", a.run.grid_slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")->check(app::finite());
+	cli.add_option("--grid-max-z", a.run.grid_slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")
+	    ->needs(grid)
+	    ->check(app::finite());
 	cli.add_option("--colour", a.colour, "ColorOcTree: colours of the sensor's returns, or by height (.ot only)")
 	    ->check(CLI::IsMember({"none", "sensor", "height"}))
 	    ->capture_default_str();
@@ -47,9 +50,11 @@ void declareSources(CLI::App& cli, Arguments& a)
 	cli.add_option("--sources", a.sources, "Which of scans, depth, clouds, landmarks; without it all there are")
 	    ->delimiter(',')
 	    ->check(CLI::IsMember({"scans", "depth", "clouds", "landmarks"}));
-	cli.add_option("--landmarks", a.run.landmarks_dir, "Output folder of viwo-odometry: its landmarks go in as well");
+	CLI::Option* landmarks =
+	    cli.add_option("--landmarks", a.run.landmarks_dir, "Output folder of viwo-odometry: its landmarks go in as well");
 	cli.add_option("--max-landmark-deviation", a.run.max_landmark_deviation,
 	               "Landmarks with a larger relative deviation of depth are left out")
+	    ->needs(landmarks)
 	    ->check(app::positive())
 	    ->capture_default_str();
 	CLI::Option* flags =
@@ -62,26 +67,31 @@ void declareSources(CLI::App& cli, Arguments& a)
 	cli.add_option("--max-gap", rays.max_gap_s, "Longest gap of the trajectory to interpolate across, s")
 	    ->check(app::positive())
 	    ->capture_default_str();
-	cli.add_option("--scan-duration", rays.scan_duration_s, "Planar scans: from the first to the last beam, s; 0: all at once")
-	    ->check(app::between(0, 10))
-	    ->capture_default_str();
+	CLI::Option* duration =
+	    cli.add_option("--scan-duration", rays.scan_duration_s, "Planar scans: from the first to the last beam, s; 0: all at once")
+	        ->check(app::between(0, 10))
+	        ->capture_default_str();
 	cli.add_option("--stamp-position", rays.stamp_position, "Planar scans: where in the sweep the stamp lies, 0 first beam, 1 last")
+	    ->needs(duration)
 	    ->check(app::between(0, 1))
 	    ->capture_default_str();
+}
+
+void declareFilters(CLI::App& cli, Arguments& a)
+{
+	RayOptions& rays = a.run.rays;
 	cli.add_option("--min-range", rays.min_range_m, "Nearer returns are left out, m")->check(app::nonNegative())->capture_default_str();
 	cli.add_option("--subsample", rays.subsample, "Every n-th return of an observation")
 	    ->check(CLI::Range(1, 1000000))
 	    ->capture_default_str();
 	cli.add_option("--pointcloud-min-z", rays.min_z_m, "Returns below this height in the map are left out, m")->check(app::finite());
 	cli.add_option("--pointcloud-max-z", rays.max_z_m, "Returns above this height in the map are left out, m")->check(app::finite());
-	cli.add_flag("--filter-ground", a.filter_ground, "Depth images and clouds: the ground is not occupied");
-	cli.add_option("--ground-distance", a.ground.distance_m, "Points this near to the ground's plane belong to it, m")
-	    ->check(app::positive())
-	    ->capture_default_str();
-	cli.add_option("--ground-angle", a.ground.angle_rad, "Largest slope of that plane, rad")->check(app::positive())->capture_default_str();
-	cli.add_option("--ground-plane-distance", a.ground.plane_distance_m, "Largest distance of that plane from the vehicle's origin, m")
-	    ->check(app::positive())
-	    ->capture_default_str();
+	CLI::Option* filter = cli.add_flag("--filter-ground", a.filter_ground, "Depth images and clouds: the ground is not occupied");
+	const auto ofGround = [&](const char* name, double& value, const char* meaning)
+	{ cli.add_option(name, value, meaning)->needs(filter)->check(app::positive())->capture_default_str(); };
+	ofGround("--ground-distance", a.ground.distance_m, "Points this near to the ground's plane belong to it, m");
+	ofGround("--ground-angle", a.ground.angle_rad, "Largest slope of that plane, rad");
+	ofGround("--ground-plane-distance", a.ground.plane_distance_m, "Largest distance of that plane from the vehicle's origin, m");
 	cli.add_flag("--allow-truncated", a.run.allow_truncated, "Take a truncated rawlog as far as it goes");
 }
 
@@ -140,6 +150,9 @@ void requireRisingLimits(const OctoMapRunOptions& run)
 	if (run.rays.min_z_m > run.rays.max_z_m) throw app::UsageError("--pointcloud-max-z is below --pointcloud-min-z");
 	if (run.casting.max_range_m > 0 && run.rays.min_range_m >= run.casting.max_range_m)
 		throw app::UsageError("--max-range is not above --min-range: every return would be left out");
+	const SensorModel& model = run.model;
+	if (model.occupancy_threshold <= model.clamping_min || model.occupancy_threshold >= model.clamping_max)
+		throw app::UsageError("--occupancy-thres must lie between --min and --max, or all voxels are the same");
 }
 
 void interpret(Arguments& a)
@@ -166,7 +179,8 @@ void interpret(Arguments& a)
 	run.rays.scans = asked("scans");
 	run.rays.depth = asked("depth");
 	run.rays.clouds = asked("clouds");
-	if (!asked("landmarks")) run.landmarks_dir.clear();
+	if (!asked("landmarks") && !run.landmarks_dir.empty())
+		throw app::UsageError("--landmarks is given, but landmarks are not among --sources");
 	if (!a.sources.empty() && asked("landmarks") && run.landmarks_dir.empty())
 		throw app::UsageError("--sources landmarks needs --landmarks DIR, the output folder of viwo-odometry");
 	if (a.filter_ground) run.rays.ground = a.ground;
@@ -198,6 +212,7 @@ int main(int argc, char** argv)
 	arguments.run.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 16u));
 	declareOutputs(cli, arguments);
 	declareSources(cli, arguments);
+	declareFilters(cli, arguments);
 	declareModel(cli, arguments);
 	return app::run(cli, argc, argv,
 	                [&]

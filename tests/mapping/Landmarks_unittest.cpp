@@ -163,6 +163,14 @@ TEST(Landmarks, DamagedFilesAreOneLine)
 	expectError([&] { withPly("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"); }, {"x, y, z"});
 	const std::string header =
 	    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+	expectError(
+	    [&]
+	    {
+		    withPly(
+		        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty int "
+		        "id\nend_header\n1 2 3 -4\n");
+	    },
+	    {"l.ply:9", "id"});
 	expectError([&] { withPly(header + "1 2 3\n"); }, {"ends after 1 of 2"});
 	expectError([&] { withPly(header + "1 2 3\n1 x 3\n"); }, {"l.ply:9"});
 	writeOdometryFolder(folder);

@@ -180,6 +180,18 @@ TEST(MapPlot, CoarserMapsLoseNoObstacle)
 	EXPECT_EQ(std::count(half.cells.begin(), half.cells.end(), OccupancyImage::kUnknown), 0) << "each has a free cell, too";
 }
 
+TEST(MapPlot, NamesWithBlanks)
+{
+	const TempFolder folder;
+	const OccupancyImage map = *smallPlot().map;
+	saveMapServer(folder.file("first floor.yaml"), map);
+	EXPECT_EQ(loadMapServer(folder.file("first floor.yaml")).cells, map.cells);
+	EXPECT_NE(readFile(folder.file("first floor.yaml")).find("image: \"first floor.pgm\"\n"), std::string::npos);
+	const ProgramResult read = runProgram("/usr/bin/ros-map-yaml2mrpt", {"-i", folder.file("first floor.yaml"), "-d", folder.path(), "-w"});
+	EXPECT_EQ(read.status, 0) << read.out << read.err;
+	EXPECT_TRUE(std::filesystem::exists(folder.file("first floor.gridmap.gz")));
+}
+
 TEST(MapPlot, DamagedMaps)
 {
 	const TempFolder folder;
@@ -246,7 +258,8 @@ TEST(PlotProgram, SameBytesTwiceAndBadValues)
 	}
 	for (const char* option : {"--min-z", "--max-z"})
 		expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.tum, option, "nan"}), {option});
-	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.tum, "--min-z", "3"}), {"--max-z", "--min-z"});
+	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.tum, "--min-z", "3"}), {"--min-z", "--octomap"});
+	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "--octomap", "x.bt", "--min-z", "3"}), {"--max-z", "--min-z"});
 	writeFile(files.folder.file("far.tum"), "1 0 0 0 0 0 0 1\n2 1e30 0 0 0 0 0 1\n");
 	expectRefused(runProgram(program, {"-o", files.folder.file("c.png"), "-t", files.folder.file("far.tum")}), {"far.tum", "1e+30"});
 }

@@ -95,16 +95,18 @@ TEST(OctoMapProgram, BadNumbers)
 	                                            {"--max-range", "2", "--min-range", "2"},
 	                                            {"--hit", "0.4"},
 	                                            {"--max", "1"},
-	                                            {"--occupancy-thres", "nan"},
+	                                            {"--occupancy-thres", "0.98"},
 	                                            {"--scan-duration", "1e300"},
-	                                            {"--stamp-position", "1.1"},
-	                                            {"--max-landmark-deviation", "nan"},
+	                                            {"--stamp-position", "1.1", "--scan-duration", "0.1"},
+	                                            {"--max-landmark-deviation", "0.1"},
 	                                            {"--pointcloud-min-z", "nan"},
 	                                            {"--pointcloud-max-z", "-1", "--pointcloud-min-z", "0"},
-	                                            {"--grid-max-z", "0"},
+	                                            {"--grid-max-z", "1"},
 	                                            {"--subsample", "0"},
 	                                            {"--sources", "radar"},
 	                                            {"--sources", "landmarks"},
+	                                            {"--landmarks", "out", "--sources", "scans"},
+	                                            {"--ground-angle", "0.1"},
 	                                            {"--bad-flags", "degenerate"}})
 	{
 		std::vector<std::string> arguments{"-i", files.rawlog, "-t", files.tum, "-o", files.folder.file("map.bt")};

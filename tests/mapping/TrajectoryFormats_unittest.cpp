@@ -163,6 +163,12 @@ TEST(TrajectoryFormats, ResamplingAndFrames)
 	EXPECT_NEAR(at_4_hz.poses()[1].T.p.y(), 2.25, 1e-12);
 	EXPECT_TRUE(resampled(trajectory, 4, 0.5).size() < 5) << "not across a gap";
 	EXPECT_EQ(resampledLike(trajectory, at_4_hz, 2).size(), 5u);
+	Trajectory with_1970;
+	with_1970.push_back({0, Pose3()});
+	for (const StampedPose& pose : trajectory.poses()) with_1970.push_back(pose);
+	const Trajectory at_1000_hz = resampled(with_1970, 1000, 2);
+	EXPECT_EQ(at_1000_hz.size(), 1001u) << "the first pose, and every millisecond from the first after " << kStart_ns << " on";
+	EXPECT_NEAR(static_cast<double>(at_1000_hz.poses()[1].t_ns - kStart_ns), 857024, 300) << "the next whole millisecond";
 	const Trajectory moved = inOtherFrame(trajectory, Pose3(Eigen::Quaterniond::Identity(), {1, 0, 0}));
 	EXPECT_LT((moved.poses()[0].T.p - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
 	EXPECT_LT((moved.poses()[1].T.p - Eigen::Vector3d(1, 4, 3)).norm(), 1e-12);

@@ -46,6 +46,7 @@ KeyFrames gather(const KeyFrameMapOptions& options)
 {
 	RawlogReaderOptions reading;
 	reading.labels = options.labels;
+	reading.allow_truncated = options.allow_truncated;
 	RawlogReader reader(options.rawlog, reading);
 	KeyFrames frames;
 	while (const auto observation = reader.next())

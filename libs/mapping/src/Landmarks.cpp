@@ -70,6 +70,7 @@ std::vector<Landmark> loadLandmarks(const std::string& ply_path)
 		std::vector<double> values(n);
 		for (double& value : values)
 			if (!(words >> value)) failAt(ply_path, line_number, "not " + std::to_string(n) + " numbers");
+		if (id < n && !(values[id] >= 0 && values[id] < 1e15)) failAt(ply_path, line_number, "the id is no whole number from 0 on");
 		landmarks.push_back({id < n ? static_cast<uint64_t>(values[id]) : 0, Eigen::Vector3d(values[x], values[y], values[z]),
 		                     deviation < n ? values[deviation] : 0});
 	}

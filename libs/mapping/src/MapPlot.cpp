@@ -20,6 +20,7 @@ constexpr int kLeft_px = 60, kRight_px = 20, kTop_px = 36, kAxis_px = 44, kLegen
 constexpr int kGridLines = 10;
 constexpr int kLargestSide_px = 6000;
 constexpr double kLeastMargin_m = 0.5, kFarthest_m = 1e8;
+constexpr double kWidestTitle_px = 2000;
 constexpr double kSwatch_px = 24, kCharacter_px = 8.5;
 constexpr PlotColour kInk{32, 33, 36}, kMuted{95, 99, 104}, kGrid{178, 184, 194}, kPaper{255, 255, 255};
 
@@ -233,7 +234,9 @@ void saveMapPlot(const std::string& path, const MapPlot& given)
 	const Paper paper(plot);
 	const std::vector<LegendPlace> places = legendPlaces(plot, paper);
 	const double legend_end = places.empty() ? paper.bottom() + kAxis_px : places.back().y;
-	const int width = static_cast<int>(std::max(paper.right(), kLongSide_px * 0.5)) + kRight_px, height = static_cast<int>(legend_end) + 14;
+	const double title_end = kLeft_px + kCharacter_px * static_cast<double>(plot.title.size());
+	const int width = static_cast<int>(std::max({paper.right(), kLongSide_px * 0.5, std::min(title_end, kWidestTitle_px)})) + kRight_px,
+	          height = static_cast<int>(legend_end) + 14;
 	const auto canvas = extension == ".png" ? pngCanvas(width, height) : svgCanvas(width, height);
 	if (plot.map) drawMap(*plot.map, paper, *canvas);
 	drawGrid(paper, *canvas);

@@ -17,6 +17,7 @@ namespace viwo
 namespace
 {
 constexpr float kOccupiedBelow = 0.35f, kFreeAbove = 0.65f;  // of MRPT's cells, which hold the probability of being free
+constexpr const char* kPlainCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";  // need no quotes in YAML
 }  // namespace
 
 OccupancyImage occupancyImage(const mrpt::maps::COccupancyGridMap2D& grid)
@@ -67,12 +68,22 @@ void saveMapServer(const std::string& yaml_path, const OccupancyImage& image)
 	              "mode: trinary\nresolution: %.6f\norigin: [%.6f, %.6f, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
 	              image.resolution_m, image.min_x_m, image.min_y_m);
 	AtomicFile yaml(yaml_path);
-	yaml.stream() << "image: " << pgm_path.filename().string() << "\n" << text;
+	const std::string name = pgm_path.filename().string();
+	const bool plain = name.find_first_not_of(kPlainCharacters) == std::string::npos;
+	yaml.stream() << "image: " << (plain ? name : "\"" + name + "\"") << "\n" << text;
 	commitTogether({&pgm, &yaml});
 }
 
 namespace
 {
+/** Without blanks and quotes around it. */
+std::string trimmed(const std::string& text)
+{
+	constexpr const char* kAround = " \t\r\"'";
+	const size_t first = text.find_first_not_of(kAround);
+	return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(kAround) + 1 - first);
+}
+
 /** `key: value` lines; enough for what map_server reads. */
 std::map<std::string, std::string> readKeys(const std::string& path)
 {
@@ -83,10 +94,7 @@ std::map<std::string, std::string> readKeys(const std::string& path)
 	{
 		const size_t colon = line.find(':');
 		if (colon == std::string::npos || line[0] == '#') continue;
-		std::string value = line.substr(colon + 1, line.find(" #") - colon - 1);
-		for (char& c : value)
-			if (c == '[' || c == ']' || c == ',' || c == '"' || c == '\r') c = ' ';
-		keys[line.substr(0, colon)] = value;
+		keys[line.substr(0, colon)] = trimmed(line.substr(colon + 1, line.find(" #", colon) - colon - 1));
 	}
 	return keys;
 }
@@ -97,7 +105,10 @@ std::vector<double> numbers(const std::map<std::string, std::string>& keys, cons
 	std::vector<double> values;
 	if (at != keys.end())
 	{
-		std::istringstream words(at->second);
+		std::string text = at->second;
+		for (char& c : text)
+			if (c == '[' || c == ']' || c == ',') c = ' ';
+		std::istringstream words(text);
 		for (double value = 0; words >> value;) values.push_back(value);
 	}
 	if (values.size() != count) throw Error(path + ": key '" + key + "' must have " + std::to_string(count) + " number(s)");
@@ -138,9 +149,8 @@ OccupancyImage loadMapServer(const std::string& yaml_path)
 		if (std::abs(value) > 1e8) throw Error(yaml_path + ": key 'origin' is out of all reason");
 	image.min_x_m = origin[0];
 	image.min_y_m = origin[1];
-	std::istringstream name(keys.count("image") ? keys.at("image") : "");
-	std::string file;
-	if (!(name >> file)) throw Error(yaml_path + ": there is no key 'image'");
+	const std::string file = keys.count("image") ? keys.at("image") : std::string();
+	if (file.empty()) throw Error(yaml_path + ": there is no key 'image'");
 	readPgm((std::filesystem::path(yaml_path).parent_path() / file).string(), image);
 	for (uint8_t& cell : image.cells)
 	{

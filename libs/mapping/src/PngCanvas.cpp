@@ -27,6 +27,19 @@ cv::Mat asMat(const OccupancyImage& map)
 	return cv::Mat(map.rows, map.columns, CV_8U, const_cast<uint8_t*>(map.cells.data()));
 }
 
+/** OpenCV's fonts have no other letters: one question mark for each character. */
+std::string inAscii(const std::string& utf8)
+{
+	std::string text;
+	for (const char c : utf8)
+	{
+		const auto byte = static_cast<unsigned char>(c);
+		const bool continues = (byte & 0xC0u) == 0x80u;
+		if (!continues) text += byte >= 0x20 && byte < 0x7F ? c : '?';
+	}
+	return text;
+}
+
 class PngCanvas : public PlotCanvas
 {
    public:
@@ -63,8 +76,9 @@ class PngCanvas : public PlotCanvas
 		cv::circle(picture_, at(centre), static_cast<int>(radius * (1 << kShift)), bgr(colour), cv::FILLED, cv::LINE_AA, kShift);
 	}
 
-	void text(const Eigen::Vector2d& base, const std::string& content, PlotColour colour, TextAnchor anchor) override
+	void text(const Eigen::Vector2d& base, const std::string& given, PlotColour colour, TextAnchor anchor) override
 	{
+		const std::string content = inAscii(given);
 		int below = 0;
 		const int width = cv::getTextSize(content, kFont, kFontScale, 1, &below).width;
 		const int left = anchor == TextAnchor::start ? 0 : anchor == TextAnchor::middle ? width / 2 : width;

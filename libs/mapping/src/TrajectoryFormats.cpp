@@ -7,6 +7,7 @@
 #include <viwo/core/TimeText.h>
 #include <viwo/mapping/TrajectoryFormats.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -268,10 +269,15 @@ Trajectory resampled(const Trajectory& trajectory, double rate_hz, double max_ga
 	if (trajectory.empty()) return result;
 	const int64_t first_ns = trajectory.poses().front().t_ns, last_ns = trajectory.poses().back().t_ns;
 	const double span_s = secondsBetween(first_ns, last_ns);
-	for (int64_t k = 0; static_cast<double>(k) <= span_s * rate_hz + 1e-6; ++k)
+	size_t next = 0;  // the pose at or behind the stamp
+	for (double k = 0; k <= span_s * rate_hz + 1e-6; ++k)
 	{
-		const int64_t t_ns = first_ns + nanoseconds(static_cast<double>(k) / rate_hz);
-		if (const auto T = trajectory.at(t_ns, max_gap_s)) result.push_back({t_ns, *T});
+		const int64_t t_ns = first_ns + nanoseconds(k / rate_hz);
+		while (next + 1 < trajectory.size() && trajectory.poses()[next].t_ns < t_ns) ++next;
+		if (const auto T = trajectory.at(t_ns, max_gap_s))
+			result.push_back({t_ns, *T});
+		else  // on to the end of the gap, which may last from 1970 until now
+			k = std::max(k, std::floor(secondsBetween(first_ns, trajectory.poses()[next].t_ns) * rate_hz) - 1);
 	}
 	return result;
 }

@@ -37,6 +37,7 @@ struct KeyFrameMapOptions
 	std::vector<std::string> labels;     //!< empty: all images, scans, depth images and clouds
 	double max_offset_s = 0.1;           //!< of an observation from its key frame
 	double max_gap_s = 1;                //!< of the trajectory
+	bool allow_truncated = false;
 };
 
 /** MRPT's CSimpleMap: for each key frame its pose and, of each label, the observation nearest in time.
