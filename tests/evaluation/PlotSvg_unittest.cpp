@@ -93,6 +93,8 @@ TEST(PlotSvg, LegendNamesTellFilesApart)
 {
 	using Names = std::vector<std::string>;
 	EXPECT_EQ(legendNames({"out/wheel/trajectory.tum", "out/vio/trajectory.tum"}), (Names{"wheel", "vio"}));
+	EXPECT_EQ(legendNames({"out/trajectory.tum"}), (Names{"out"}));
+	EXPECT_EQ(legendNames({"rawlogs/sample_ground_truth.tum"}), (Names{"sample_ground_truth"}));
 	EXPECT_EQ(legendNames({"a.tum", "b.tum"}), (Names{"a", "b"}));
 	EXPECT_EQ(legendNames({"x/a.tum", "x/a.tum"}), (Names{"x/a.tum", "x/a.tum"}));
 }

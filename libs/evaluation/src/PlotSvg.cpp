@@ -144,7 +144,8 @@ std::vector<std::string> legendNames(const std::vector<std::string>& paths)
 	const bool folders_tell =
 	    std::set<std::string>(folders.begin(), folders.end()).size() == paths.size() && std::count(folders.begin(), folders.end(), "") == 0;
 	const bool same_file = std::set<std::string>(files.begin(), files.end()).size() == 1;
-	if (same_file && folders_tell) return folders;
+	// A path alone is told by its file, unless that has the name that all runs give it.
+	if (same_file && folders_tell && (paths.size() > 1 || files.front() == "trajectory")) return folders;
 	return std::set<std::string>(files.begin(), files.end()).size() == paths.size() ? files : paths;
 }
 
