@@ -104,7 +104,7 @@ CLI::Validator rangeLimit()
 
 void declareModel(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("--resolution", a.run.resolution_m, "Edge of a voxel, m")->check(app::between(1e-4, 1000))->capture_default_str();
+	cli.add_option("--resolution", a.run.resolution_m, "Edge of a voxel, m")->check(app::between(0.001, 1000))->capture_default_str();
 	cli.add_option("--max-range", a.run.casting.max_range_m, "Longer rays only clear, up to this, m; -1: no limit")
 	    ->check(rangeLimit())
 	    ->capture_default_str();

@@ -177,15 +177,13 @@ TEST(ConvertFiles, SameBytesTwice)
 			expectDone(runProgram(kProgram, arguments));
 			EXPECT_FALSE(readFile(out.file(name)).empty()) << name;
 		};
-		for (const char* name : {"t.tum", "t.kitti", "t.csv", "t.mrpt", "t.g2o"}) make(name, {"trajectory", "-i", files.tum});
-		for (const char* name : {"l.ply", "l.pcd"}) make(name, {"landmarks", "-i", files.folder.file("l.ply")});
+		for (const char* name : {"t.kitti", "t.g2o"}) make(name, {"trajectory", "-i", files.tum});
+		make("l.pcd", {"landmarks", "-i", files.folder.file("l.ply")});
 		make("m.simplemap", {"simplemap", "-i", files.rawlog, "-t", files.tum});
 		make("r.rawlog", {"rawlog", "-i", files.rawlog, "-t", files.tum});
-		for (const auto& entry : fs::directory_iterator(out.path())) all += entry.path().filename().string() + " ";
-		for (const char* name : {"t.tum", "t.kitti", "t_kitti_times.txt", "t.csv", "t.mrpt", "t.g2o", "t_g2o_stamps.csv", "l.ply", "l.pcd",
-		                         "m.simplemap", "r.rawlog"})
+		for (const char* name : {"t.kitti", "t_kitti_times.txt", "t.g2o", "t_g2o_stamps.csv", "l.pcd", "m.simplemap", "r.rawlog"})
 			all += readFile(out.file(name));
-		return all.substr(all.find("t."));
+		return all;
 	};
 	const std::string first = bytes();
 	EXPECT_GT(first.size(), 50000u);
@@ -206,10 +204,10 @@ TEST(ConvertFiles, FullDisk)
 		for (const char* either : {"t.kitti", "t_kitti_times.txt", "t.g2o", "t_g2o_stamps.csv"})
 			EXPECT_FALSE(fs::exists(files.folder.file(either))) << either << " without the other file";
 	};
-	for (const char* name : {"t.tum", "t.kitti", "t.csv", "t.mrpt", "t.g2o"}) toFull(name, {"trajectory", "-i", files.tum});
+	for (const char* name : {"t.tum", "t.kitti"}) toFull(name, {"trajectory", "-i", files.tum});
 	toFull("t.kitti", {"trajectory", "-i", files.tum}, "t_kitti_times.txt");
 	toFull("t.g2o", {"trajectory", "-i", files.tum}, "t_g2o_stamps.csv");
-	for (const char* name : {"m.ply", "m.pcd"}) toFull(name, {"landmarks", "-i", files.folder.file("l.ply")});
+	toFull("m.pcd", {"landmarks", "-i", files.folder.file("l.ply")});
 	toFull("m.simplemap", {"simplemap", "-i", files.rawlog, "-t", files.tum});
 	toFull("r.rawlog", {"rawlog", "-i", files.rawlog, "-t", files.tum});
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
 namespace viwo
 {
@@ -240,6 +241,38 @@ TEST(PlotProgram, SlicesOfAnOctoMap)
 	const ProgramResult nothing = runProgram(
 	    VIWO_BINARY_DIR "/bin/viwo-plot", {"-o", folder.file("q.png"), "--octomap", folder.file("m.ot"), "--min-z", "3", "--max-z", "4"});
 	expectRefused(nothing, {"m.ot", "3.00 and 4.00 m", "0.20 and 1.10 m", "--min-z"});
+}
+
+/** Cut anywhere, or with the bytes of a tree without an end. */
+TEST(PlotProgram, DamagedOctoMaps)
+{
+	const TempFolder folder;
+	octomap::OcTree tree(0.1);
+	octomap::ColorOcTree coloured(0.1);
+	for (int i = 0; i < 50; ++i)
+	{
+		const octomap::point3d p(0.3f * static_cast<float>(i), 0.05f, 0.5f);
+		tree.updateNode(p, i % 3 == 0);
+		coloured.updateNode(p, i % 3 == 0);
+	}
+	const auto load = [&](const std::string& bytes)
+	{
+		writeFile(folder.file("m"), bytes);
+		return loadProjection(folder.file("m"), {});
+	};
+	for (const OctreeFormat format : {OctreeFormat::ot, OctreeFormat::bt})
+	{
+		std::ostringstream plain, colours;
+		writeOctree(plain, tree, format);
+		writeOctree(colours, coloured, format);
+		for (const std::string& whole : {plain.str(), colours.str()})
+		{
+			EXPECT_EQ(load(whole).columns, 148);
+			for (size_t length = 0; length < whole.size(); length += 7) expectError([&] { load(whole.substr(0, length)); }, {"damaged"});
+			const std::string header = whole.substr(0, whole.find("data\n") + 5);
+			expectError([&] { load(header + std::string(3'000'000, '\xFF')); }, {"damaged"});
+		}
+	}
 }
 
 TEST(PlotProgram, SameBytesTwiceAndBadValues)

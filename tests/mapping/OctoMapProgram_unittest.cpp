@@ -94,11 +94,9 @@ TEST(OctoMapProgram, BadNumbers)
 	                                            {"--max-range", "nan"},
 	                                            {"--max-range", "2", "--min-range", "2"},
 	                                            {"--hit", "0.4"},
-	                                            {"--max", "1"},
 	                                            {"--occupancy-thres", "0.98"},
 	                                            {"--scan-duration", "1e300"},
 	                                            {"--stamp-position", "1.1", "--scan-duration", "0.1"},
-	                                            {"--max-landmark-deviation", "0.1"},
 	                                            {"--pointcloud-min-z", "nan"},
 	                                            {"--pointcloud-max-z", "-1", "--pointcloud-min-z", "0"},
 	                                            {"--grid-max-z", "1"},
@@ -106,7 +104,6 @@ TEST(OctoMapProgram, BadNumbers)
 	                                            {"--sources", "radar"},
 	                                            {"--sources", "landmarks"},
 	                                            {"--landmarks", "out", "--sources", "scans"},
-	                                            {"--ground-angle", "0.1"},
 	                                            {"--bad-flags", "degenerate"}})
 	{
 		std::vector<std::string> arguments{"-i", files.rawlog, "-t", files.tum, "-o", files.folder.file("map.bt")};

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "OctreeCheck.h"
+
 namespace viwo
 {
 namespace
@@ -150,6 +152,8 @@ std::optional<OctreeHeader> readHeader(std::istream& file)
 template <class Tree>
 std::optional<OccupancyImage> readProjection(std::istream& file, const OctreeHeader& header, const HeightSlice& slice)
 {
+	constexpr size_t kLogOdds = sizeof(float), kColour = 3;
+	if (!isWholeOctree(file, header.format, kLogOdds + (kHasColour<Tree> ? kColour : 0))) return std::nullopt;
 	Tree tree(header.resolution_m);
 	if (header.format == OctreeFormat::bt)
 		tree.readBinaryData(file);
@@ -264,7 +268,7 @@ OccupancyImage loadProjection(const std::string& path, const HeightSlice& slice)
 		throw Error(path + ": " + e.what());
 	}
 	if (image) return *image;
-	throw Error(path + ": not an OctoMap file (OcTree or ColorOcTree), or damaged");
+	throw Error(path + ": not an OctoMap file (OcTree or ColorOcTree), or cut short or damaged; write or copy it again");
 }
 
 void colourByHeight(octomap::ColorOcTree& tree)

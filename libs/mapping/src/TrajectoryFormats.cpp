@@ -53,8 +53,9 @@ Trajectory loadEuroc(const std::string& path)
 	while (rows.next())
 	{
 		rows.expectWords(8, true, "t_ns,x,y,z,qw,qx,qy,qz");
+		const int64_t t_ns = rows.integer(0);
 		const Eigen::Vector3d p(rows.number(1), rows.number(2), rows.number(3));
-		appendPose(rows, {rows.integer(0), Pose3(rows.rotation(4, 5, 6, 7), p)}, trajectory);
+		appendPose(rows, {t_ns, Pose3(rows.rotation(4, 5, 6, 7), p)}, trajectory);
 	}
 	return trajectory;
 }
