@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <viwo/mapping/Landmarks.h>
 #include <viwo/mapping/OccupancyImage.h>
 
 #include <filesystem>
@@ -178,6 +179,33 @@ TEST(OctoMapProgram, AFlatMapsGridIsAllOfIt)
 	};
 	EXPECT_GT(gridOf(files).size(), 10000u);
 	EXPECT_EQ(gridOf(files), gridOf(higher));
+}
+
+/** With landmarks the same map is not flat, and the laser at z = 0 is below the grid: that is said. */
+TEST(OctoMapProgram, ScansThatTheGridDoesNotShow)
+{
+	ScanRoom room;
+	room.T_OL.p.z() = 0;
+	const ScanRoomFiles files(room);
+	const std::string dir = files.folder.file("out");
+	fs::create_directory(dir);
+	fs::copy_file(files.tum, dir + "/trajectory.tum");
+	saveLandmarks(dir + "/landmarks.ply", {{1, {1, 0, 1.5}, 0.01}});
+	writeFile(dir + "/keyframes.csv", "t_ns,x,y,z,qx,qy,qz,qw\n1700000000200000000,0,-1,0.3,0,0,0,1\n");
+	writeFile(dir + "/landmark_observations.csv", "landmark_id,t_ns\n1,1700000000200000000\n");
+	std::vector<std::string> arguments{"-i",          files.rawlog,
+	                                   "-t",          files.tum,
+	                                   "-o",          files.folder.file("map.bt"),
+	                                   "--landmarks", dir,
+	                                   "--to-grid",   files.folder.file("map.yaml")};
+	const ProgramResult missed = runProgram(kProgram, arguments);
+	expectDone(missed);
+	EXPECT_NE(missed.err.find("40 planar scans lie outside"), std::string::npos) << missed.err;
+	EXPECT_NE(missed.err.find("--grid-min-z"), std::string::npos) << missed.err;
+	arguments.insert(arguments.end(), {"--grid-min-z", "0"});
+	const ProgramResult seen = runProgram(kProgram, arguments);
+	expectDone(seen);
+	EXPECT_EQ(seen.err, "");
 }
 
 TEST(OctoMapProgram, HeightsWithoutAnythingLoseNoMap)

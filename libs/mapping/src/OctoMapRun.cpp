@@ -1,4 +1,5 @@
 #include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/TimeText.h>
@@ -10,7 +11,9 @@
 #include <viwo/rawlog/RawlogReader.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "CommitTogether.h"
@@ -149,6 +152,7 @@ class MapBuild
 			++(builder_.tree().isNodeOccupied(*leaf) ? result_.occupied : result_.free);
 		if (result_.occupied + result_.free == 0)
 			throw Error(options_.rawlog + ": no ray could be used: all are beyond the octree; use a coarser --resolution");
+		if (!options_.grid.empty()) countScansOffGrid();
 		progress(0.99, "writing");
 		outputs_.write(builder_.tree(), options_);
 		return result_;
@@ -178,6 +182,8 @@ class MapBuild
 			switch (rays.convert(observation, scan))
 			{
 				case ObservationRays::Outcome::used:
+					if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get()) && !scan.hits.empty())
+						++planar_scans_at_[std::floor(scan.hits.front().origin.z() / kHeightStep_m)];
 					insert(std::move(scan));
 					break;
 				case ObservationRays::Outcome::no_pose:
@@ -191,6 +197,13 @@ class MapBuild
 			}
 		}
 		counts_ = reader.counts();
+	}
+
+	void countScansOffGrid()
+	{
+		const auto shown = heightsShown(builder_.tree(), options_.grid_slice);
+		for (const auto& [step, scans] : planar_scans_at_)
+			if (!shown((step + 0.5) * kHeightStep_m)) result_.scans_off_grid += scans;
 	}
 
 	void insert(RayScan scan)
@@ -213,6 +226,8 @@ class MapBuild
 		if (options_.colours == VoxelColours::height) colourByHeight(tree);
 	}
 
+	static constexpr double kHeightStep_m = 0.01;
+
 	const OctoMapRunOptions& options_;
 	const OctoMapRunHooks& hooks_;
 	MapOutputs outputs_;
@@ -220,6 +235,7 @@ class MapBuild
 	PoseFlags flags_;
 	OctreeBuilder<Tree> builder_;
 	OctoMapRunResult result_;
+	std::map<double, size_t> planar_scans_at_;  //!< height of the sensor, in steps
 	RawlogCounts counts_;
 	Span span_;
 };

@@ -91,20 +91,26 @@ int layerAt(double layers)
 	return static_cast<int>(std::clamp(std::floor(layers), -1.0 * kCentreKey, kCentreKey - 1.0));
 }
 
-template <class Tree>
-Layers layersOf(const Tree& tree, const HeightSlice& slice)
+Layers layersOf(const HeightSlice& slice, double resolution_m)
 {
-	constexpr double kFlat_m = 0.3;
-	const double resolution_m = tree.getResolution();
-	if (!slice.min_z_m && !slice.max_z_m)
-	{
-		const Layers occupied = knownLayers(tree, true);
-		if (occupied.first <= occupied.last && (occupied.last - occupied.first) * resolution_m < kFlat_m) return kAllLayers;
-	}
 	Layers layers;
 	layers.first = layerAt(slice.min_z_m.value_or(HeightSlice::kMin_z_m) / resolution_m + 1e-9);
 	layers.last = std::max(layers.first, layerAt(slice.max_z_m.value_or(HeightSlice::kMax_z_m) / resolution_m - 1e-9));
 	return layers;
+}
+
+template <class Tree>
+bool isFlat(const Tree& tree)
+{
+	constexpr double kFlat_m = 0.3;
+	const Layers occupied = knownLayers(tree, true);
+	return occupied.first <= occupied.last && (occupied.last - occupied.first) * tree.getResolution() < kFlat_m;
+}
+
+template <class Tree>
+Layers layersOf(const Tree& tree, const HeightSlice& slice)
+{
+	return !slice.min_z_m && !slice.max_z_m && isFlat(tree) ? kAllLayers : layersOf(slice, tree.getResolution());
 }
 
 template <class Tree>
@@ -214,6 +220,16 @@ void writeOccupiedPly(std::ostream& out, const Tree& tree)
 }
 
 template <class Tree>
+std::function<bool(double z_m)> heightsShown(const Tree& tree, const HeightSlice& slice)
+{
+	return [layers = layersOf(tree, slice), resolution_m = tree.getResolution()](double z_m)
+	{
+		const int layer = layerAt(z_m / resolution_m);
+		return layer >= layers.first && layer <= layers.last;
+	};
+}
+
+template <class Tree>
 OccupancyImage projection(const Tree& tree, const HeightSlice& slice)
 {
 	const double resolution_m = tree.getResolution();
@@ -296,6 +312,8 @@ template void writeOctree(std::ostream&, octomap::OcTree&, OctreeFormat);
 template void writeOctree(std::ostream&, octomap::ColorOcTree&, OctreeFormat);
 template void writeOccupiedPly(std::ostream&, const octomap::OcTree&);
 template void writeOccupiedPly(std::ostream&, const octomap::ColorOcTree&);
+template std::function<bool(double)> heightsShown(const octomap::OcTree&, const HeightSlice&);
+template std::function<bool(double)> heightsShown(const octomap::ColorOcTree&, const HeightSlice&);
 template OccupancyImage projection(const octomap::OcTree&, const HeightSlice&);
 template OccupancyImage projection(const octomap::ColorOcTree&, const HeightSlice&);
 }  // namespace viwo

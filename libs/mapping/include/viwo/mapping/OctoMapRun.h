@@ -52,6 +52,7 @@ struct OctoMapRunResult
 	size_t no_pose = 0;  //!< left out: not on the trajectory
 	size_t empty = 0;    //!< without any return
 	size_t rays = 0, unusable_rays = 0;
+	size_t scans_off_grid = 0;      //!< planar scans whose sensor lies outside of the grid's heights; 0 without a grid
 	size_t occupied = 0, free = 0;  //!< leaves
 	double wall_time_s = 0;
 };

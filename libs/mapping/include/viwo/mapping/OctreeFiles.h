@@ -4,6 +4,7 @@
 #include <octomap/OcTree.h>
 #include <viwo/mapping/OccupancyImage.h>
 
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -51,6 +52,10 @@ OccupancyImage projection(const Tree& tree, const HeightSlice& slice);
 
 /** The same of a file, .bt or .ot, of an OcTree or a ColorOcTree. @throws Error: unreadable, or another kind of tree. */
 OccupancyImage loadProjection(const std::string& path, const HeightSlice& slice);
+
+/** Tells which heights projection() looks at. */
+template <class Tree>
+std::function<bool(double z_m)> heightsShown(const Tree& tree, const HeightSlice& slice);
 
 /** Colours every occupied leaf by its height: from blue at the lowest to red at the highest. */
 void colourByHeight(octomap::ColorOcTree& tree);
