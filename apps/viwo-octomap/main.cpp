@@ -200,6 +200,7 @@ void print(const Arguments& a, const OctoMapRunResult& r)
 	};
 	note(r.flagged, "observations left out: their poses are flagged as bad");
 	note(r.no_pose, "observations left out: no pose at their time");
+	note(r.no_time, "observations left out: they have no stamp, or one that does not fit the others");
 	note(r.empty, "observations have no return");
 	note(r.scans_off_grid, "planar scans lie outside of the grid's heights; set --grid-min-z and --grid-max-z to see them there");
 	note(r.unusable_rays, "rays left out: beyond the octree or not finite");

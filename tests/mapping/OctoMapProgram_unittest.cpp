@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <viwo/mapping/Landmarks.h>
 #include <viwo/mapping/OccupancyImage.h>
+#include <viwo/rawlog/RawlogReader.h>
 
 #include <filesystem>
 #include <iostream>
@@ -130,6 +131,31 @@ TEST(OctoMapProgram, NothingToMap)
 	writeFile(files.folder.file("other.csv"), "t_s,flag\n1,good\n");
 	expectRefused(files, runProgram(kProgram, {"-i", files.rawlog, "-t", files.tum, "-o", map, "--flags", files.folder.file("other.csv")}),
 	              {"other.csv", "another trajectory"});
+}
+
+TEST(OctoMapProgram, ScansWithoutTimes)
+{
+	const ScanRoomFiles files;
+	for (const bool some : {true, false})
+	{
+		const std::string rawlog = files.folder.file("unstamped.rawlog"), map = files.folder.file("map.bt");
+		RawlogReader reader(files.rawlog);
+		RawlogWriter writer(rawlog);
+		for (int i = 0; const auto observation = reader.next(); ++i)
+		{
+			if (!some || i >= 30) observation->timestamp = INVALID_TIMESTAMP;
+			writer.write(*observation);
+		}
+		writer.close();
+		const ProgramResult result = runProgram(kProgram, {"-i", rawlog, "-t", files.tum, "-o", map});
+		if (!some) return expectRefused(files, result, {"unstamped.rawlog", "none of the 40 observations has a stamp"});
+		expectDone(result);
+		EXPECT_NE(result.err.find("10 observations left out: they have no stamp"), std::string::npos) << result.err;
+		const ProgramResult copy = runProgram(VIWO_BINARY_DIR "/bin/viwo-convert",
+		                                      {"rawlog", "-i", rawlog, "-t", files.tum, "-o", files.folder.file("copy.rawlog")});
+		EXPECT_NE(copy.err.find("10 observations left out"), std::string::npos) << copy.err;
+		std::filesystem::remove(map);
+	}
 }
 
 TEST(OctoMapProgram, InterruptedItLeavesNothing)

@@ -99,10 +99,14 @@ ObservationRays::ObservationRays(const Trajectory& trajectory, const RayOptions&
 
 bool ObservationRays::isSource(const CObservation& observation) const
 {
-	if (options_.scans && dynamic_cast<const CObservation2DRangeScan*>(&observation)) return true;
-	if (options_.depth && dynamic_cast<const CObservation3DRangeScan*>(&observation)) return true;
-	return options_.clouds &&
-	       (dynamic_cast<const CObservationPointCloud*>(&observation) || dynamic_cast<const CObservationVelodyneScan*>(&observation));
+	const std::string name = observation.GetRuntimeClass()->className;
+	return isSourceClass(name.substr(name.rfind(':') + 1));
+}
+
+bool ObservationRays::isSourceClass(const std::string& name) const
+{
+	return (options_.scans && name == "CObservation2DRangeScan") || (options_.depth && name == "CObservation3DRangeScan") ||
+	       (options_.clouds && (name == "CObservationPointCloud" || name == "CObservationVelodyneScan"));
 }
 
 ObservationRays::Outcome ObservationRays::convert(const CObservation::Ptr& observation, RayScan& rays) const

@@ -108,6 +108,9 @@ struct Span
 		throw Error(o.trajectory + ": no pose at the time of any observation; the trajectory is of " +
 		            formatSeconds(trajectory.poses().front().t_ns) + " to " + formatSeconds(trajectory.poses().back().t_ns) +
 		            " s, the observations of " + formatSeconds(span.first_ns) + " to " + formatSeconds(span.last_ns) + " s");
+	if (result.no_time > 0)
+		throw Error(o.rawlog + ": none of the " + std::to_string(result.no_time) +
+		            " observations has a stamp that fits the others; record them with their times");
 	if (result.empty > 0) throw Error(o.rawlog + ": none of the " + std::to_string(result.empty) + " observations has a return");
 	throw Error(o.rawlog + ": nothing to map: there are no planar scans, depth images or point clouds among the sources; it holds " +
 	            counts.describe());
@@ -197,6 +200,8 @@ class MapBuild
 			}
 		}
 		counts_ = reader.counts();
+		for (const auto& [sensor, counts] : counts_.sensors)
+			if (rays.isSourceClass(sensor.second)) result_.no_time += counts.unstamped + counts.late + counts.stamp_jumps;
 	}
 
 	void countScansOffGrid()

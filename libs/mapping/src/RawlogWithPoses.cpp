@@ -64,6 +64,8 @@ class Copy
 		if (result_.poses == 0)
 			throw Error("no pose of the trajectory (" + formatSeconds(poses.front().t_ns) + " to " + formatSeconds(poses.back().t_ns) +
 			            " s) lies within " + options_.input);
+		for (const auto& [sensor, counts] : reader_.counts().sensors)
+			result_.left_out += counts.unstamped + counts.late + counts.stamp_jumps;
 		bringAlongFiles();
 		writer_.close();
 		return result_;

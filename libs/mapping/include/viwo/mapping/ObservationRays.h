@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace viwo
 {
@@ -45,6 +46,8 @@ class ObservationRays
 	ObservationRays(const Trajectory& trajectory, const RayOptions& options);
 
 	bool isSource(const mrpt::obs::CObservation& observation) const;
+	/** By the class's name without namespace. */
+	bool isSourceClass(const std::string& name) const;
 
 	/** @throws Error when the observation's external file is missing. */
 	Outcome convert(const mrpt::obs::CObservation::Ptr& observation, RayScan& rays) const;

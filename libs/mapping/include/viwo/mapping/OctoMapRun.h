@@ -50,6 +50,7 @@ struct OctoMapRunResult
 	size_t used = 0;     //!< observations in the map, key frames with landmarks included
 	size_t flagged = 0;  //!< left out: pose flagged as bad
 	size_t no_pose = 0;  //!< left out: not on the trajectory
+	size_t no_time = 0;  //!< left out: no stamp, too late, or far from all others
 	size_t empty = 0;    //!< without any return
 	size_t rays = 0, unusable_rays = 0;
 	size_t scans_off_grid = 0;      //!< planar scans whose sensor lies outside of the grid's heights; 0 without a grid

@@ -20,6 +20,7 @@ struct RawlogWithPosesOptions
 struct RawlogWithPosesResult
 {
 	size_t observations = 0, poses = 0;
+	size_t left_out = 0;        //!< observations without a stamp, too late, or far from all others: they have no place in the order of time
 	std::string images_folder;  //!< of the copy; empty when it needs none
 };
 
