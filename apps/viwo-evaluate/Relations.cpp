@@ -5,6 +5,7 @@
 #include <viwo/evaluation/RelationErrors.h>
 #include <viwo/evaluation/Table.h>
 
+#include <cstdio>
 #include <iostream>
 
 namespace viwo
@@ -72,6 +73,11 @@ int evaluateRelations(const RelationArguments& a)
 		json["sensor"]["pose_m_m_deg"] = a.sensor;
 	}
 	std::cout << table.toText() << std::flush;
+	if (in_O.evaluated < in_O.relations)
+		std::fprintf(stderr,
+		             "viwo-evaluate: warning: only %zu of %zu relations were evaluated: the others have no pose at their times in %s%s\n",
+		             in_O.evaluated, in_O.relations, a.trajectory.c_str(),
+		             a.stamps.empty() ? "; a log with repaired stamps needs its table (--stamps)" : "");
 	if (!a.json.empty()) saveJson(a.json, json);
 	return 0;
 }

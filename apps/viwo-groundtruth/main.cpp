@@ -15,9 +15,13 @@ void declare(CLI::App& cli, gt::GroundTruthRunOptions& a, bool& no_odometry_edge
 	cli.add_option("-o,--output", a.output_dir, "Folder for what is computed")->required();
 	cli.add_option("-c,--config", a.config_path, "Configuration (INI); without it the defaults");
 	cli.add_option("--scan-label", a.scan_label, "Sensor label of the scans; not needed where there is only one");
-	cli.add_option("--odometry-label", a.odometry_label, "Sensor label of the wheel odometry")->capture_default_str();
-	cli.add_option("--imu-label", a.imu_label, "Sensor label of the IMU")->capture_default_str();
-	cli.add_option("--resolution", a.resolution_m, "Cell size of the map, m")->check(CLI::Range(0.005, 1.0))->capture_default_str();
+	cli.add_option("--odometry-label", a.odometry_label, "Sensor label of the wheel odometry; without it ODOMETRY, if there is any")
+	    ->check(app::notEmpty());
+	cli.add_option("--imu-label", a.imu_label, "Sensor label of the IMU; without it IMU, if there is any")->check(app::notEmpty());
+	cli.add_option("--resolution", a.resolution_m, "Cell size of the map, m")
+	    ->check(app::positive())
+	    ->check(CLI::Range(0.005, 1.0))
+	    ->capture_default_str();
 	cli.add_option("--threads", a.threads, "Threads; the result does not depend on them")->check(CLI::Range(1, 256))->capture_default_str();
 	cli.add_flag("--holdout", a.holdout, "Leave every tenth scan out of graph and map, and compare its pose with its match to the map");
 	cli.add_flag("--align-axes", a.align_axes, "Turn the map so that most walls lie along its axes");

@@ -180,6 +180,14 @@ TEST(RelationsProgram, HelpUsageAndTable)
 	    runProgram(program, {"relations", "-r", folder.file("r"), "-e", folder.file("e.tum"), "--sensor", "0.1", "0", "90"});
 	EXPECT_EQ(result.status, 0) << result.err;
 	EXPECT_NE(result.out.find("sensor"), std::string::npos) << result.out;
+	EXPECT_EQ(result.err, "");
+	writeFile(folder.file("r"), "1 2 1 0 0 0 0 1.5707963\n1 12 1 0 0 0 0 1.5707963\n11 2 1 0 0 0 0 1.5707963\n");
+	const ProgramResult some = runProgram(program, {"relations", "-r", folder.file("r"), "-e", folder.file("e.tum")});
+	EXPECT_EQ(some.status, 0);
+	EXPECT_NE(some.out.find("1/3"), std::string::npos) << some.out;
+	EXPECT_EQ(some.errorLines(), 1u) << some.err;
+	EXPECT_NE(some.err.find("only 1 of 3 relations"), std::string::npos) << some.err;
+	EXPECT_NE(some.err.find("--stamps"), std::string::npos) << some.err;
 	writeFile(folder.file("r"), "11 12 1 0 0 0 0 1.5707963\n");
 	const ProgramResult none = runProgram(program, {"relations", "-r", folder.file("r"), "-e", folder.file("e.tum")});
 	EXPECT_EQ(none.status, 1);

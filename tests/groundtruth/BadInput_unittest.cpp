@@ -6,8 +6,12 @@
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <map>
+#include <random>
 
 using namespace viwo;
 using namespace viwo::gt;
@@ -43,6 +47,51 @@ std::vector<Case> badSensors()
 			     if (i == 200) odometry = odometry * Pose2(0.5, 0, 30 * M_PI / 180);
 		     };
 	     }},
+	    {"odometry is reset, leaps and turns", 0.05, "odometry leapt 3 times as no robot drives", 0, 0,
+	     [](RoomLog& log)
+	     {
+		     log.disturb = [](int i, std::vector<float>&, Pose2& odometry)
+		     {
+			     if (i == 100) odometry = Pose2();
+			     if (i == 300) odometry = odometry * Pose2(0, -3, 0);
+			     if (i == 450) odometry = odometry * Pose2(0, 0, 2);
+		     };
+	     }},
+	    {"odometry leaps less than a robot may drive", 0.06, "odometry jumped 1 times against the scans, by up to 1.", 0, 480,
+	     [](RoomLog& log)
+	     {
+		     log.disturb = [](int i, std::vector<float>&, Pose2& odometry)
+		     {
+			     if (i == 200) odometry = odometry * Pose2(-1.2, 0.3, -0.6);
+		     };
+		     log.odometry_stride = 5;
+		     log.has_scan = [](int i) { return i % 5 == 0; };
+	     }},
+	    {"wild odometry", 0.05, "3 odometry readings that are wild", 0, 0,
+	     [](RoomLog& log)
+	     {
+		     log.written = [](int i, Pose2 odometry)
+		     {
+			     const double inf = std::numeric_limits<double>::infinity();
+			     if (i == 100) odometry = Pose2(1e9, -1e9, 1);
+			     if (i == 200) odometry = Pose2(inf, 0, 0);
+			     if (i == 300) odometry = Pose2(0, std::nan(""), 0);
+			     return odometry;
+		     };
+	     }},
+	    {"odometry flickers", 0.05, "2 odometry readings that are wild", 0, 0,
+	     [](RoomLog& log)
+	     { log.written = [](int i, const Pose2& odometry) { return i == 100 || i == 101 ? Pose2(1e6, 50, 0) : odometry; }; }},
+	    {"nothing but wild odometry", 0.06, "odometry is not used: most of its steps", 0, 0,
+	     [](RoomLog& log) { log.written = [](int i, const Pose2&) { return Pose2((i % 7) * 1e6, (i % 5) * 1e5, i); }; }},
+	    {"scans of noise", 0.05, "20 scans are noise", 20, 0,
+	     ranges(
+	         [](int i, std::vector<float>& r)
+	         {
+		         std::mt19937 random(static_cast<unsigned>(i));
+		         if (i >= 100 && i < 120)
+			         for (float& one : r) one = 0.1f + 10 * static_cast<float>(random()) / static_cast<float>(random.max());
+	         })},
 	    {"5 s without scans", 0.15, "1 times no scan for more than 1 s, at most for 5.1 s", 0, 50,
 	     [](RoomLog& log) { log.has_scan = [](int i) { return i < 150 || i >= 200; }; }},
 	    {"blind scans", 0.15, "20 scans have no valid beam", 20, 0,
@@ -143,8 +192,74 @@ TEST(GroundTruthBadInput, SaysWhatIsWrongInOneLine)
 	log.write(folder.file("x.rawlog"));
 	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"x.rawlog", "no usable scans", "--scan-label"});
 	log.beams = 181;
+	GroundTruthRunOptions options = optionsFor(folder);
+	log.write(folder.file("x.rawlog"));
+	options.scan_label = "LASER";
+	expectError([&] { runGroundTruth(options); }, {"x.rawlog", "under label LASER", "LIDAR (5 CObservation2DRangeScan)"});
+	options.scan_label.clear();
+	options.odometry_label = "ODO";
+	expectError([&] { runGroundTruth(options); }, {"x.rawlog", "label ODO", "--odometry-label", "ODOMETRY (5 CObservationOdometry)"});
+	options.odometry_label.clear();
+	options.imu_label = "GYRO";
+	expectError([&] { runGroundTruth(options); }, {"x.rawlog", "label GYRO", "--imu-label", "LIDAR (5"});
+	options.imu_label.clear();
+	for (const double resolution_m : {std::nan(""), std::numeric_limits<double>::infinity(), 0., -1., 1e-9, 1e9})
+	{
+		options.resolution_m = resolution_m;
+		expectError([&] { runGroundTruth(options); }, {"resolution", "0.005 to 1"});
+	}
 	log.disturb = [](int, std::vector<float>& r, Pose2&) { r.assign(r.size(), 0.f); };
 	log.write(folder.file("x.rawlog"));
 	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"x.rawlog", "none of the 5 scans"});
-	EXPECT_FALSE(std::filesystem::exists(folder.file("out/trajectory.tum")));
+	EXPECT_FALSE(std::filesystem::exists(folder.file("out"))) << "a run that fails leaves no folder behind";
+}
+
+/** Neither a mixture of two runs nor half of one. */
+TEST(GroundTruthBadInput, AFailedRunLeavesTheFolderAsItWas)
+{
+	const TempFolder folder;
+	RoomLog log;
+	log.scans = 60;
+	log.write(folder.file("x.rawlog"));
+	runGroundTruth(optionsFor(folder));
+	const auto contents = [&]
+	{
+		std::map<std::string, std::string> files;
+		for (const auto& entry : std::filesystem::directory_iterator(folder.file("out")))
+			files[entry.path().filename().string()] = entry.is_directory() ? "folder" : readFile(entry.path().string());
+		return files;
+	};
+	writeFile(folder.file("out/mine.txt"), "left alone");
+	auto before = contents();
+	EXPECT_EQ(before.size(), 12u);
+	RoomLog other;
+	other.scans = 80;
+	other.write(folder.file("x.rawlog"));
+	GroundTruthRunHooks hooks;
+	hooks.interrupted = [] { return true; };
+	EXPECT_THROW(runGroundTruth(optionsFor(folder), hooks), Error);
+	EXPECT_EQ(contents(), before);
+	// One of the files has no place: none of the others is written either.
+	std::filesystem::remove(folder.file("out/map.png"));
+	std::filesystem::create_directory(folder.file("out/map.png"));
+	before["map.png"] = "folder";
+	expectError([&] { runGroundTruth(optionsFor(folder)); }, {"map.png", "it is a folder"});
+	EXPECT_EQ(contents(), before);
+	std::filesystem::remove(folder.file("out/map.png"));
+	runGroundTruth(optionsFor(folder));
+	EXPECT_EQ(contents().size(), 12u);
+	EXPECT_NE(contents()["trajectory.tum"], before["trajectory.tum"]);
+	EXPECT_EQ(contents()["mine.txt"], "left alone");
+}
+
+TEST(GroundTruthBadInput, FewBeamsAreTold)
+{
+	const TempFolder folder;
+	RoomLog log;
+	log.scans = 40;
+	log.beams = 25;
+	log.write(folder.file("x.rawlog"));
+	const GroundTruthRunResult result = runGroundTruth(optionsFor(folder));
+	ASSERT_FALSE(result.notes.empty());
+	EXPECT_NE(result.notes.front().find("40 scans have fewer than 30 beams"), std::string::npos) << result.notes.front();
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -55,6 +56,10 @@ struct RoomLog
 	uint64_t seed = 1;
 	/** Called for each scan before it is written; may change it, or the odometry that goes with it. */
 	std::function<void(int, std::vector<float>&, gt::Pose2&)> disturb = [](int, std::vector<float>&, gt::Pose2&) {};
+	/** What odometry's reading is written as. */
+	std::function<gt::Pose2(int, const gt::Pose2&)> written = [](int, const gt::Pose2& odometry) { return odometry; };
+	int odometry_stride = 1;                //!< scans for each reading of odometry
+	std::optional<double> gyro_bias_rad_s;  //!< with an IMU at 100 Hz of this bias
 	std::function<bool(int)> has_scan = [](int) { return true; };
 	std::function<int64_t(int)> stamp_ns = [](int i) { return kStart_ns + i * kPeriod_ns; };
 	double start_m = 0;   //!< along the way
@@ -82,6 +87,19 @@ struct RoomLog
 			if (s <= quarter) return T * arc;
 			T = T * arc;
 			s -= quarter;
+		}
+	}
+
+	/** Ten readings up to the next scan. */
+	void writeImu(int64_t t_ns, int i, RawlogWriter& writer) const
+	{
+		const double rate_rad_s = gt::between(poseAt(start_m + 0.12 * i), poseAt(start_m + 0.12 * (i + 1))).yaw / (1e-9 * kPeriod_ns);
+		for (int k = 0; k < 10; ++k)
+		{
+			ImuSample sample;
+			sample.t_ns = t_ns + k * kPeriod_ns / 10;
+			sample.gyro_rad_s.z() = rate_rad_s + *gyro_bias_rad_s;
+			writer.write(makeImu(sample, Pose3()));
 		}
 	}
 
@@ -125,7 +143,10 @@ struct RoomLog
 			}
 			disturb(i, ranges, odometry);
 			const int64_t t_ns = stamp_ns(i);
-			if (with_odometry) writer->write(makeOdometry(t_ns, {}, {}, odometry.p.x(), odometry.p.y(), odometry.yaw));
+			const gt::Pose2 reading = written(i, odometry);
+			if (with_odometry && i % odometry_stride == 0)
+				writer->write(makeOdometry(t_ns, {}, {}, reading.p.x(), reading.p.y(), reading.yaw));
+			if (gyro_bias_rad_s) writeImu(t_ns, i, *writer);
 			if (!has_scan(i)) continue;
 			auto scan = makeScan(t_ns, ranges, M_PI, 30, Pose3(), "LIDAR");
 			// As a driver writes them that does not look at its numbers.

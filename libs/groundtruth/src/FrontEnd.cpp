@@ -14,6 +14,9 @@ namespace
 {
 constexpr int kFewestPoints = 15;
 constexpr double kGoodTrust = 0.25;
+constexpr double kElsewhere_m = 0.3, kElsewhere_rad = 15 * kDegree;
+constexpr double kSearchScore = 0.4;
+constexpr double kLongestRatio = 10, kLongGap_s = 1;
 
 /** Keys of the recent past around the robot, as one thin cloud. */
 class LocalMap
@@ -79,7 +82,7 @@ class Tracker
 		const PosePrior guess = predict(i, result.scans);
 		TrackedScan scan;
 		scan.T = guess.T;
-		if (points >= kFewestPoints && !map_.empty()) match(cloud, guess, scan, result.searches);
+		if (points >= kFewestPoints && !map_.empty()) match(cloud, guess, i, scan, result);
 		if (points >= kFewestPoints && map_.empty())
 		{
 			scan.flag = PoseFlag::good;
@@ -93,6 +96,18 @@ class Tracker
 	}
 
    private:
+	/** From the scan before, as from the one before that; after a long while no motion. */
+	Pose2 constantVelocity(size_t i, const std::vector<TrackedScan>& done) const
+	{
+		if (i < 2) return {};
+		const double last_s = secondsBetween(session_.scans[i - 2].t_ns, session_.scans[i - 1].t_ns);
+		const double now_s = secondsBetween(session_.scans[i - 1].t_ns, session_.scans[i].t_ns);
+		// Stamps that were repaired may follow each other at once: no speed comes from them.
+		if (now_s > kLongestRatio * last_s || now_s >= kLongGap_s) return {};
+		const Pose2 last = between(done[i - 2].T, done[i - 1].T);
+		return {last.p * (now_s / last_s), last.yaw * (now_s / last_s)};
+	}
+
 	PosePrior predict(size_t i, const std::vector<TrackedScan>& done) const
 	{
 		PosePrior prior;
@@ -104,10 +119,7 @@ class Tracker
 			step = *motion;
 		else if (i > 1)
 		{
-			const double last_s = secondsBetween(session_.scans[i - 2].t_ns, session_.scans[i - 1].t_ns);
-			const double now_s = secondsBetween(session_.scans[i - 1].t_ns, session_.scans[i].t_ns);
-			const Pose2 last = between(done[i - 2].T, T_last);
-			if (last_s > 0 && now_s < 1) step.T_ab = Pose2(last.p * (now_s / last_s), last.yaw * (now_s / last_s));
+			step.T_ab = constantVelocity(i, done);
 			step.information.diagonal() << 1 / 0.01, 1 / 0.01, 1 / 0.01;
 		}
 		prior.T = T_last * step.T_ab;
@@ -122,20 +134,41 @@ class Tracker
 		return r.inlierRatio() >= options_.matching.min_inlier_ratio && r.inliers >= kFewestPoints;
 	}
 
-	void match(const Cloud& cloud, const PosePrior& guess, TrackedScan& scan, size_t& searches)
+	/** Leaves r where nothing better is found in the window around T. */
+	void search(const Cloud& cloud, const Pose2& T, Registration& r)
+	{
+		const auto found = map_.matcher().search(cloud, T, options_.matching.search_distance_m,
+		                                         options_.matching.search_angle_deg * kDegree, kSearchScore);
+		if (!found) return;
+		const Registration second = registerCloud(cloud, map_.index(), found->T, nullptr, scales_.registration);
+		if (second.inliers > r.inliers) r = second;
+	}
+
+	/** Where a scan lies nowhere near the place that odometry leads to, odometry may be wrong by any length: as if there were none. Not
+	 * after a while without scans, over which nothing else leads. */
+	void searchWithoutOdometry(const Cloud& cloud, PosePrior& guess, size_t i, FrontEndResult& result, Registration& r)
+	{
+		if (secondsBetween(session_.scans[i - 1].t_ns, session_.scans[i].t_ns) >= kLongGap_s) return;
+		const Pose2 T = result.scans.back().T * constantVelocity(i, result.scans);
+		const auto elsewhere = [&](const Pose2& d) { return d.p.norm() > kElsewhere_m || std::abs(d.yaw) > kElsewhere_rad; };
+		if (!motion_.between(i - 1, i) || !elsewhere(between(T, guess.T))) return;
+		Registration other = registerCloud(cloud, map_.index(), T, nullptr, scales_.registration);
+		if (!trusted(other)) search(cloud, T, other);
+		if (!trusted(other) || !elsewhere(between(other.T, guess.T))) return;
+		r = other;
+		guess.T = T;
+		result.contradicted.push_back(i);
+	}
+
+	void match(const Cloud& cloud, PosePrior guess, size_t i, TrackedScan& scan, FrontEndResult& result)
 	{
 		Registration r = registerCloud(cloud, map_.index(), guess.T, &guess, scales_.registration);
 		if (!trusted(r))
 		{
-			++searches;
-			const auto found = map_.matcher().search(cloud, guess.T, options_.matching.search_distance_m,
-			                                         options_.matching.search_angle_deg * kDegree, 0.4);
-			if (found)
-			{
-				const Registration second = registerCloud(cloud, map_.index(), found->T, nullptr, scales_.registration);
-				if (second.inliers > r.inliers) r = second;
-			}
+			++result.searches;
+			search(cloud, guess.T, r);
 		}
+		if (!trusted(r)) searchWithoutOdometry(cloud, guess, i, result, r);
 		scan.inlier_ratio = r.inlierRatio();
 		if (!trusted(r)) return;
 		scan.T = r.T;

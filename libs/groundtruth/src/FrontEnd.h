@@ -44,7 +44,8 @@ struct FrontEndResult
 	std::vector<TrackedScan> scans;
 	std::vector<size_t> keys;  //!< indices of key scans, increasing
 	std::vector<Cloud> key_clouds;
-	size_t searches = 0;  //!< scans whose guess was so poor that a window was searched
+	size_t searches = 0;               //!< scans whose guess was so poor that a window was searched
+	std::vector<size_t> contradicted;  //!< scans found where odometry does not lead to from the scan before, increasing
 };
 
 /** Each scan against the local map of the last key scans, from the guess of odometry.

@@ -1,5 +1,6 @@
 #include "PoseGraph.h"
 
+#include <viwo/core/Scalars.h>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -11,39 +12,90 @@ namespace
 {
 using Sparse = Eigen::SparseMatrix<double>;
 
-/** J^T W J of all edges without the first pose. */
-Sparse normalMatrix(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses)
+/** J^T W J of all edges without the first pose; behind the poses the gyroscope's biases and the scale of odometry. */
+class NormalMatrix
 {
-	std::vector<Eigen::Triplet<double>> triplets;
-	const auto add = [&](size_t row, size_t column, const Eigen::Matrix3d& block)
+   public:
+	NormalMatrix(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses, const GyroTurns& gyro, const CommonErrors& common)
+	    : poses_(poses), bias_(static_cast<int>(3 * (poses.size() - 1))), scale_(bias_ + static_cast<int>(gyro.biases_rad_s.size()))
 	{
-		if (row == 0 || column == 0) return;
-		for (int r = 0; r < 3; ++r)
-			for (int c = 0; c < 3; ++c)
-				triplets.emplace_back(static_cast<int>(3 * (row - 1)) + r, static_cast<int>(3 * (column - 1)) + c, block(r, c));
-	};
-	for (const GraphEdge& edge : edges)
+		for (const GraphEdge& edge : edges) add(edge, common);
+		for (const GyroTurn& turn : gyro.turns) add(turn);
+		if (scale_ > bias_) triplets_.emplace_back(bias_, bias_, 1 / square(kGyroBias_rad_s));
+		for (int k = bias_ + 1; k < scale_; ++k) addDifference(k - 1, k, 1 / square(gyro.walk_rad_s));
+		// A pose without any edge gets a huge variance instead of a division by zero.
+		for (int i = 0; i < bias_; ++i) triplets_.emplace_back(i, i, 1e-6);
+		triplets_.emplace_back(scale_, scale_, common.odometry_scale > 0 ? 1 / square(common.odometry_scale) : 1);
+	}
+
+	Sparse matrix() const
 	{
-		const Pose2 T = between(poses[edge.a], poses[edge.b]);
-		const double c = std::cos(poses[edge.a].yaw), s = std::sin(poses[edge.a].yaw);
+		Sparse H(scale_ + 1, scale_ + 1);
+		H.setFromTriplets(triplets_.begin(), triplets_.end());
+		return H;
+	}
+
+   private:
+	static int columnOf(size_t pose) { return static_cast<int>(3 * pose) - 3; }
+
+	/** A block, and its transpose where it is off the diagonal. */
+	template <class Block>
+	void put(int row, int column, const Block& block)
+	{
+		if (row < 0 || column < 0) return;
+		for (int r = 0; r < block.rows(); ++r)
+			for (int c = 0; c < block.cols(); ++c)
+			{
+				triplets_.emplace_back(row + r, column + c, block(r, c));
+				if (row != column) triplets_.emplace_back(column + c, row + r, block(r, c));
+			}
+	}
+
+	void add(const GraphEdge& edge, const CommonErrors& common)
+	{
+		const Pose2 T = between(poses_[edge.a], poses_[edge.b]);
+		const double c = std::cos(poses_[edge.a].yaw), s = std::sin(poses_[edge.a].yaw);
 		Eigen::Matrix3d A, B;
 		A << -c, -s, T.p.y(), s, -c, -T.p.x(), 0, 0, -1;
 		B << c, s, 0, -s, c, 0, 0, 0, 1;
 		// Cauchy's weight: rho'(s) = 1 / (1 + s / kernel^2).
-		const double weight = edge.kernel > 0 ? 1 / (1 + chi2(edge, poses) / (edge.kernel * edge.kernel)) : 1;
-		const Eigen::Matrix3d W = weight * edge.information;
-		add(edge.a, edge.a, A.transpose() * W * A);
-		add(edge.a, edge.b, A.transpose() * W * B);
-		add(edge.b, edge.a, B.transpose() * W * A);
-		add(edge.b, edge.b, B.transpose() * W * B);
+		const double weight = edge.kernel > 0 ? 1 / (1 + chi2(edge, poses_) / (edge.kernel * edge.kernel)) : 1;
+		const Eigen::Matrix3d W = weight * informationOfMany(edge);
+		const int a = columnOf(edge.a), b = columnOf(edge.b);
+		put<Eigen::Matrix3d>(a, a, A.transpose() * W * A);
+		put<Eigen::Matrix3d>(a, b, A.transpose() * W * B);
+		put<Eigen::Matrix3d>(b, b, B.transpose() * W * B);
+		if (edge.kind != GraphEdge::Kind::odometry || common.odometry_scale <= 0) return;
+		const Eigen::Vector3d S(-edge.T_ab.p.x(), -edge.T_ab.p.y(), 0);
+		put<Eigen::Vector3d>(a, scale_, A.transpose() * W * S);
+		put<Eigen::Vector3d>(b, scale_, B.transpose() * W * S);
+		triplets_.emplace_back(scale_, scale_, S.dot(W * S));
 	}
-	const int n = static_cast<int>(3 * (poses.size() - 1));
-	// A pose without any edge gets a huge variance instead of a division by zero.
-	for (int i = 0; i < n; ++i) triplets.emplace_back(i, i, 1e-6);
-	Sparse H(n, n);
-	H.setFromTriplets(triplets.begin(), triplets.end());
-	return H;
-}
+
+	/** Of two scalars. */
+	void addDifference(int a, int b, double information)
+	{
+		triplets_.emplace_back(b, b, information);
+		if (a < 0) return;
+		triplets_.emplace_back(a, a, information);
+		triplets_.emplace_back(a, b, -information);
+		triplets_.emplace_back(b, a, -information);
+	}
+
+	void add(const GyroTurn& turn)
+	{
+		const int a = columnOf(turn.a) + 2, b = columnOf(turn.b) + 2, bias = bias_ + static_cast<int>(turn.bias);
+		addDifference(turn.a > 0 ? a : -1, b, turn.information);
+		const Eigen::Matrix<double, 1, 1> coupling(turn.information * turn.dt_s);
+		if (turn.a > 0) put(a, bias, Eigen::Matrix<double, 1, 1>(-coupling));
+		put(b, bias, coupling);
+		put(bias, bias, Eigen::Matrix<double, 1, 1>(coupling * turn.dt_s));
+	}
+
+	const std::vector<Pose2>& poses_;
+	const int bias_, scale_;
+	std::vector<Eigen::Triplet<double>> triplets_;
+};
 
 /** Entries of (L D L^T)^-1 on the pattern of L, column by column from the last. */
 class SelectedInverse
@@ -100,11 +152,12 @@ class SelectedInverse
 };
 }  // namespace
 
-std::vector<Eigen::Matrix3d> graphCovariances(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses)
+std::vector<Eigen::Matrix3d> graphCovariances(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses, const GyroTurns& gyro,
+                                              const CommonErrors& common)
 {
 	std::vector<Eigen::Matrix3d> covariances(poses.size(), Eigen::Matrix3d::Zero());
 	if (poses.size() < 2) return covariances;
-	const Eigen::SimplicialLDLT<Sparse> ldlt(normalMatrix(edges, poses));
+	const Eigen::SimplicialLDLT<Sparse> ldlt(NormalMatrix(edges, poses, gyro, common).matrix());
 	// Eigen's L leaves out its unit diagonal: add it so that the inverse has a place for its own.
 	Sparse L = ldlt.matrixL();
 	Sparse unit(L.rows(), L.cols());

@@ -1,5 +1,6 @@
 #include "GroundTruthSummary.h"
 #include "MapFiles.h"
+#include "StagedFolder.h"
 #include "TrajectoryFiles.h"
 
 #include <viwo/core/Error.h>
@@ -9,19 +10,19 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 
 namespace viwo::gt
 {
 namespace
 {
 constexpr double kJump_m = 0.2, kJump_deg = 10;
+constexpr double kFinestMap_m = 0.005, kCoarsestMap_m = 1;
 
-void makeFolder(const std::string& dir)
+void check(const GroundTruthRunOptions& options)
 {
-	std::error_code error;
-	std::filesystem::create_directories(dir, error);
-	if (error) throw Error(dir + ": cannot make this folder (" + error.message() + "); choose another with -o");
+	if (options.rawlogs.empty()) throw Error("no rawlog was given");
+	if (!(options.resolution_m >= kFinestMap_m && options.resolution_m <= kCoarsestMap_m))
+		throw Error("resolution of the map: a number of metres from 0.005 to 1 is wanted (--resolution)");
 }
 
 WithoutOdometry compare(const std::vector<FinalPose>& a, const std::vector<FinalPose>& b)
@@ -46,7 +47,9 @@ void noteContradictions(const Session& session, const Solution& solution, std::v
 	{
 		const FinalPose &a = solution.poses[i - 1], &b = solution.poses[i];
 		const auto &from = session.scans[i - 1].odometry, &to = session.scans[i].odometry;
-		if (!from || !to || a.flag != PoseFlag::good || b.flag != PoseFlag::good) continue;
+		if (!from || !to || session.scans[i - 1].odometry_jumps != session.scans[i].odometry_jumps || a.flag == PoseFlag::odometry_only ||
+		    b.flag == PoseFlag::odometry_only)
+			continue;
 		const Pose2 d = between(between(*from, *to), between(a.T, b.T));
 		const double metres = d.p.norm(), degrees = std::abs(d.yaw) / kDegree;
 		if (metres < kJump_m && degrees < kJump_deg) continue;
@@ -82,8 +85,8 @@ GroundTruthRunResult runGroundTruth(const GroundTruthRunOptions& options, const 
 {
 	const auto start = std::chrono::steady_clock::now();
 	const std::clock_t cpu_start = std::clock();
-	if (options.rawlogs.empty()) throw Error("no rawlog was given");
-	makeFolder(options.output_dir);
+	check(options);
+	StagedFolder folder(options.output_dir);
 	const auto progress = [&](double fraction, const std::string& what)
 	{
 		if (hooks.progress) hooks.progress(fraction, what);
@@ -102,16 +105,17 @@ GroundTruthRunResult runGroundTruth(const GroundTruthRunOptions& options, const 
 	GroundTruthRunResult result;
 	count(session, solution, result);
 	progress(0.96, "writing");
-	const std::string& dir = options.output_dir;
+	const std::string& dir = folder.path();
 	writeTrajectory(dir, session, solution.poses);
 	writeGraph(dir, session, solution.keys, solution.edges);
-	writeMaps(dir, session, solution.keys, solution.poses, options.options.scan, options.resolution_m);
+	writeMaps(dir, session, solution.keys, solution.poses, options.resolution_m);
 	GroundTruthOptions effective = options.options;
 	saveOptions(dir + "/config.ini", effective.sections(), "Effective configuration of viwo-groundtruth");
 	result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	result.cpu_time_s = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-	result.summary_path = dir + "/summary.json";
-	writeSummary(result.summary_path, options, session, solution, without, result);
+	writeSummary(dir + "/summary.json", options, session, solution, without, result);
+	folder.commit("summary.json");
+	result.summary_path = options.output_dir + "/summary.json";
 	return result;
 }
 }  // namespace viwo::gt

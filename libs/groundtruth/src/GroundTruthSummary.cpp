@@ -49,8 +49,15 @@ void writeSummary(const std::string& path, const GroundTruthRunOptions& options,
 		    {"scans", h.scans}, {"median_m", h.median_m}, {"p95_m", h.p95_m}, {"median_deg", h.median_deg}, {"p95_deg", h.p95_deg}};
 	}
 	const OdometryCalibration& c = solution.calibration;
-	j["odometry"] = {
-	    {"distance_scale", orNull(c.distance_scale)}, {"turn_scale", orNull(c.turn_scale)}, {"time_offset_s", orNull(c.time_offset_s)}};
+	j["odometry"] = {{"distance_scale", orNull(c.distance_scale)},
+	                 {"distance_scale_deviation", orNull(c.distance_scale_deviation)},
+	                 {"turn_scale", orNull(c.turn_scale)},
+	                 {"time_offset_s", orNull(c.time_offset_s)},
+	                 {"time_offset_deviation_s", orNull(c.time_offset_deviation_s)},
+	                 {"time_offset_significant", c.offsetIsSignificant()}};
+	j["odometry"]["jumps"] = session.odometry_jumps;
+	j["odometry"]["contradicted"] = solution.contradicted;
+	j["odometry"]["left_out"] = session.odometry_left_out;
 	if (session.has_imu) j["odometry"]["gyro_bias_rad_s"] = session.gyro_bias_rad_s + c.gyro_bias_rad_s.value_or(0);
 	j["lidar_yaw_deg"] = orNull(c.lidar_yaw_rad, 180 / M_PI);
 	j["odometry_edges"] = options.options.graph.odometry_edges;

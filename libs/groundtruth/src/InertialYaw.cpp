@@ -14,6 +14,7 @@ namespace
 {
 constexpr double kLongestGap_s = 0.1;
 constexpr size_t kFewest = 50;
+constexpr double kFastest_rad_s = 100;  //!< no gyroscope measures more
 }  // namespace
 
 void InertialYaw::add(const mrpt::obs::CObservationIMU& imu)
@@ -21,8 +22,12 @@ void InertialYaw::add(const mrpt::obs::CObservationIMU& imu)
 	if (!imu.has(mrpt::obs::IMU_WX) || !imu.has(mrpt::obs::IMU_WY) || !imu.has(mrpt::obs::IMU_WZ)) return;
 	const Eigen::Vector3d w(imu.get(mrpt::obs::IMU_WX), imu.get(mrpt::obs::IMU_WY), imu.get(mrpt::obs::IMU_WZ));
 	const int64_t t_ns = nanosecondsOf(imu.timestamp);
-	if (!w.allFinite() || (!readings_.empty() && t_ns <= readings_.back().t_ns)) return;
-	readings_.push_back({t_ns, (fromMrpt(imu.sensorPose).R * w).z()});
+	if (!readings_.empty() && t_ns <= readings_.back().t_ns) return;
+	const double rate_rad_s = (fromMrpt(imu.sensorPose).R * w).z();
+	if (!w.allFinite() || !(std::abs(rate_rad_s) < kFastest_rad_s))
+		++left_out_;
+	else
+		readings_.push_back({t_ns, rate_rad_s});
 }
 
 bool InertialYaw::integrate(std::vector<Scan>& scans, double& bias_rad_s) const

@@ -20,6 +20,8 @@ class InertialYaw
 	 * odometry to tell the bias, or too few readings. */
 	bool integrate(std::vector<Scan>& scans, double& bias_rad_s) const;
 
+	size_t leftOut() const { return left_out_; }  //!< readings that are no numbers, or none that a gyroscope measures
+
    private:
 	struct Reading
 	{
@@ -27,5 +29,6 @@ class InertialYaw
 		double rate_rad_s;  //!< about O's z axis
 	};
 	std::vector<Reading> readings_;
+	size_t left_out_ = 0;
 };
 }  // namespace viwo::gt

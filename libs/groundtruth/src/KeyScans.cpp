@@ -1,5 +1,8 @@
 #include "KeyScans.h"
 
+#include <viwo/core/Scalars.h>
+#include <viwo/core/Time.h>
+
 #include <algorithm>
 
 namespace viwo::gt
@@ -52,6 +55,24 @@ std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, double tru
 	// at the first wrong registration.
 	edge.kernel = trust < 1 ? 10 : 2;
 	return edge;
+}
+
+GyroTurns gyroTurns(const KeyScans& keys, const Session& session, const MotionModel& motion, const MotionNoiseOptions& options)
+{
+	GyroTurns gyro;
+	for (size_t k = 0; k + 1 < keys.size(); ++k)
+	{
+		auto turn = motion.turnByGyro(keys.scan[k], keys.scan[k + 1]);
+		if (!turn) continue;
+		turn->a = k;
+		turn->b = k + 1;
+		const double t_s = secondsBetween(session.scans.front().t_ns, session.scans[keys.scan[k]].t_ns);
+		turn->bias = static_cast<size_t>(t_s / GyroTurns::kBiasTime_s);
+		gyro.turns.push_back(*turn);
+	}
+	if (!gyro.turns.empty()) gyro.biases_rad_s.assign(gyro.turns.back().bias + 1, 0);
+	gyro.walk_rad_s = options.gyro_bias_walk_deg_s * kDegree * std::sqrt(GyroTurns::kBiasTime_s);
+	return gyro;
 }
 
 std::vector<GraphEdge> chainEdges(const KeyScans& keys, const FrontEndResult& front_end, const MotionModel& motion,

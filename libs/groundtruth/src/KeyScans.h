@@ -22,6 +22,9 @@ KeyScans keyScansOf(FrontEndResult& front_end);
 std::vector<GraphEdge> chainEdges(const KeyScans& keys, const FrontEndResult& front_end, const MotionModel& motion,
                                   const GraphOptions& options);
 
+/** From key to key by the gyroscope; empty where there is none whose bias is known. */
+GyroTurns gyroTurns(const KeyScans& keys, const Session& session, const MotionModel& motion, const MotionNoiseOptions& options);
+
 /** An edge of odometry from key a to key a + 1; nothing where it is not known. @param flag of the registration of a + 1. */
 std::optional<GraphEdge> odometryEdge(const KeyScans& keys, size_t a, double trust, const MotionModel& motion, const GraphOptions& options);
 }  // namespace viwo::gt

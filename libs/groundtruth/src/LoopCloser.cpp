@@ -17,7 +17,7 @@ constexpr double kLinkLength_m = 0.3;  //!< of a loop, as a way along which the 
 constexpr double kPendingWay_m = 15;   //!< loops this far apart may confirm each other
 constexpr double kKernel = 3;
 constexpr double kWorstChi2 = 60;
-constexpr double kVoteWider = 2.5, kVoteScore = 0.3, kVoteInlierRatio = 0.25;
+constexpr double kVoteWider = 4, kVoteDrift = 1.8, kVoteScore = 0.3, kVoteInlierRatio = 0.25;
 constexpr size_t kVoteQueries = 5;  //!< submaps that must tell of the same correction
 }  // namespace
 
@@ -230,6 +230,7 @@ bool LoopCloser::closeByVote(int threads, LoopCounts& counts)
 {
 	const LoopOptions usual = limits_;
 	limits_.max_search_m *= kVoteWider;
+	limits_.drift_per_m *= kVoteDrift;
 	limits_.min_score = std::min(usual.min_score, kVoteScore);
 	limits_.min_inlier_ratio = std::min(usual.min_inlier_ratio, kVoteInlierRatio);
 	limits_.query_reach_m *= 3;

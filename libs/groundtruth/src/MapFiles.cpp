@@ -11,13 +11,10 @@ namespace viwo::gt
 {
 namespace
 {
-mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan, const ScanOptions& options)
+mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan)
 {
-	std::vector<float> ranges = scan.ranges_m;
-	for (float& r : ranges)
-		if (static_cast<double>(r) < options.min_range_m || static_cast<double>(r) > options.max_range_m) r = 0;
-	return std::make_shared<mrpt::obs::CObservation2DRangeScan>(makeScan(scan.t_ns, ranges,
-	                                                                     scan.step_rad * static_cast<double>(ranges.size() - 1),
+	return std::make_shared<mrpt::obs::CObservation2DRangeScan>(makeScan(scan.t_ns, scan.ranges_m,
+	                                                                     scan.step_rad * static_cast<double>(scan.ranges_m.size() - 1),
 	                                                                     static_cast<double>(scan.max_range_m), scan.T_OL, "LIDAR"));
 }
 
@@ -56,10 +53,10 @@ MapPlot pictureOf(OccupancyImage map, const std::vector<FinalPose>& poses)
 }  // namespace
 
 void writeMaps(const std::string& dir, const Session& session, const KeyScans& keys, const std::vector<FinalPose>& poses,
-               const ScanOptions& scan, double resolution_m)
+               double resolution_m)
 {
 	std::vector<PosedScan> scans;
-	for (size_t k = 0; k < keys.size(); ++k) scans.push_back({observationOf(session.scans[keys.scan[k]], scan), pose3(keys.poses[k])});
+	for (size_t k = 0; k < keys.size(); ++k) scans.push_back({observationOf(session.scans[keys.scan[k]]), pose3(keys.poses[k])});
 	const mrpt::maps::COccupancyGridMap2D grid = gridOf(scans, resolution_m);
 	const OccupancyImage image = occupancyImage(grid);
 	saveMapServer(dir + "/map.yaml", image);

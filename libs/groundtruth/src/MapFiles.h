@@ -12,5 +12,5 @@ namespace viwo::gt
  *  @throws Error when a file cannot be written.
  */
 void writeMaps(const std::string& dir, const Session& session, const KeyScans& keys, const std::vector<FinalPose>& poses,
-               const ScanOptions& scan, double resolution_m);
+               double resolution_m);
 }  // namespace viwo::gt

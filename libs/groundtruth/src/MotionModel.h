@@ -1,5 +1,6 @@
 #pragma once
 
+#include "PoseGraph.h"
 #include "Registration.h"
 #include "ScanCloud.h"
 #include "Session.h"
@@ -23,6 +24,8 @@ struct MotionCalibration
 	std::optional<double> distance_walk;
 	/** Of the yaw rate, on top of what was taken off on loading. Unknown: turns are the gyroscope's, their weight is that of odometry's. */
 	std::optional<double> gyro_bias_rad_s;
+	/** Scans, increasing, that registration has found elsewhere than odometry leads to from the scan before. */
+	std::vector<size_t> contradicted;
 };
 
 /** What odometry and gyroscope say of motions. */
@@ -34,13 +37,18 @@ class MotionModel
 	{
 	}
 
-	/** Nothing where there is no odometry for either scan. */
+	/** Nothing where there is no odometry for either scan, or where scans contradict it in between. */
 	std::optional<Motion2> between(size_t a, size_t b) const;
+
+	/** By the gyroscope, where there is one whose bias is known; a and b are left to the caller. */
+	std::optional<GyroTurn> turnByGyro(size_t a, size_t b) const;
 
 	/** Mean over the scan's neighbours; zero where unknown. */
 	Twist2 twistAt(size_t scan) const;
 
    private:
+	bool contradicted(size_t a, size_t b) const;
+
 	const Session& session_;
 	const MotionNoiseOptions options_;
 	const MotionCalibration calibration_;

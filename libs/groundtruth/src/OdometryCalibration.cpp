@@ -14,10 +14,13 @@ namespace
 constexpr double kWindow_s = 1.0, kLongWindow_s = 4.0;
 constexpr size_t kFewest = 20;
 constexpr double kLongestStep_s = 0.5, kLargestRate_rad_s = 0.2;
-constexpr double kOffsetStep_s = 0.01, kWorstOffset_s = 0.02;
+constexpr double kSmoothReadings = 2.5, kLeastSmooth_s = 0.2;
+constexpr double kOffsetStep_s = 0.01, kWorstOffset_s = 0.05;
 constexpr int kOffsetSteps = 40, kOffsetWidth = 5;
-constexpr double kLeastWalk = 0.003;        // m per square root of a metre
-constexpr double kMedianOfNormal = 0.6745;  // median of |x|, x standard normal
+constexpr size_t kBlocks = 10;
+constexpr double kLeastOffset_s = 0.005, kFewTurns = 1.5;  // few of the blocks may hold all turns
+constexpr double kLeastWalk = 0.003;                       // m per square root of a metre
+constexpr double kMedianOfNormal = 0.6745;                 // median of |x|, x standard normal
 
 struct Step
 {
@@ -120,47 +123,110 @@ std::vector<Rates> ratesOf(const Session& session, const std::vector<FinalPose>&
 	return rates;
 }
 
-/** Mean square of the scans' yaw rates less those that odometry had `offset_s` earlier; single large differences (slip) count little. */
-double misfit(const std::vector<Rates>& rates, double offset_s)
+/** Odometry's yaw rate by a line through the readings around t. Plain interpolation would do harm: it halves the noise between two
+ *  readings, so that the best fit would always be half an interval off. @param hint near t, goes along. */
+std::optional<double> smoothRate(const std::vector<Rates>& rates, double t_s, double half_width_s, size_t& hint)
 {
-	double sum = 0;
-	size_t count = 0, k = 0;
-	for (const Rates& r : rates)
+	while (hint + 1 < rates.size() && rates[hint].t_s < t_s - half_width_s) ++hint;
+	while (hint > 0 && rates[hint - 1].t_s >= t_s - half_width_s) --hint;
+	double w = 0, wt = 0, wtt = 0, wr = 0, wtr = 0;
+	size_t behind = 0, count = 0;
+	for (size_t k = hint; k < rates.size() && rates[k].t_s <= t_s + half_width_s; ++k)
 	{
-		while (k + 1 < rates.size() && rates[k + 1].t_s < r.t_s - offset_s) ++k;
-		while (k > 0 && rates[k].t_s > r.t_s - offset_s) --k;
-		if (k + 1 >= rates.size() || rates[k].t_s > r.t_s - offset_s) continue;
-		const Rates &a = rates[k], &b = rates[k + 1];
-		if (b.t_s - a.t_s > kLongestStep_s) continue;
-		const double odometry = a.odometry + (r.t_s - offset_s - a.t_s) / (b.t_s - a.t_s) * (b.odometry - a.odometry);
-		sum += std::min(square(r.scan - odometry), square(kLargestRate_rad_s));
+		const double t = rates[k].t_s - t_s, weight = 1 - std::abs(t) / half_width_s;
+		w += weight;
+		wt += weight * t;
+		wtt += weight * t * t;
+		wr += weight * rates[k].odometry;
+		wtr += weight * t * rates[k].odometry;
+		behind += t > 0;
 		++count;
 	}
-	return count < kFewest ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
+	const double determinant = w * wtt - wt * wt;
+	if (behind == 0 || behind == count || determinant <= 1e-9) return std::nullopt;
+	return (wtt * wr - wt * wtr) / determinant;
 }
 
-/** The shift at which yaw rates by odometry fit those by scans best; nothing where the rates vary too little to tell. */
-std::optional<double> timeOffset_s(const Session& session, const std::vector<FinalPose>& poses)
+/** Squares of the scans' yaw rates less those that odometry had `offset_s` earlier; single large differences (slip) count little. */
+struct Misfit
+{
+	double sum = 0;
+	size_t count = 0;
+};
+
+/** Of each of kBlocks stretches of the log. */
+std::vector<Misfit> misfits(const std::vector<Rates>& rates, double half_width_s, double offset_s)
+{
+	std::vector<Misfit> blocks(kBlocks);
+	size_t hint = 0;
+	for (size_t i = 0; i < rates.size(); ++i)
+	{
+		const auto odometry = smoothRate(rates, rates[i].t_s - offset_s, half_width_s, hint);
+		if (!odometry) continue;
+		Misfit& block = blocks[i * kBlocks / rates.size()];
+		block.sum += std::min(square(rates[i].scan - *odometry), square(kLargestRate_rad_s));
+		++block.count;
+	}
+	return blocks;
+}
+
+double halfWidth_s(const std::vector<Rates>& rates)
+{
+	std::vector<double> periods;
+	for (size_t i = 1; i < rates.size(); ++i) periods.push_back(rates[i].t_s - rates[i - 1].t_s);
+	return std::clamp(kSmoothReadings * median(periods).value_or(0), kLeastSmooth_s, kLongestStep_s);
+}
+
+/** Misfits of all blocks for each offset, from -kOffsetSteps on. */
+using OffsetTable = std::vector<std::vector<Misfit>>;
+
+/** The offset of the best fit, one block left out (kBlocks: none); nothing where the best one is none. */
+std::optional<double> bestOffset_s(const OffsetTable& table, size_t left_out)
+{
+	std::vector<double> mean;
+	for (const std::vector<Misfit>& blocks : table)
+	{
+		Misfit all;
+		for (size_t b = 0; b < blocks.size(); ++b)
+		{
+			if (b == left_out) continue;
+			all.sum += blocks[b].sum;
+			all.count += blocks[b].count;
+		}
+		mean.push_back(all.count < kFewest ? std::numeric_limits<double>::infinity() : all.sum / static_cast<double>(all.count));
+	}
+	int at = 0;
+	const auto of = [&mean](int k) { return mean[static_cast<size_t>(k + kOffsetSteps)]; };
+	for (int k = -kOffsetSteps; k <= kOffsetSteps; ++k)
+		if (of(k) < of(at) || (of(k) == of(at) && std::abs(k) < std::abs(at))) at = k;
+	if (!std::isfinite(of(at)) || std::abs(at) + kOffsetWidth > kOffsetSteps) return std::nullopt;
+	const double before = of(at - kOffsetWidth), behind = of(at + kOffsetWidth), curvature = before - 2 * of(at) + behind;
+	if (!(curvature > 0)) return std::nullopt;
+	return at * kOffsetStep_s + 0.5 * kOffsetWidth * kOffsetStep_s * (before - behind) / curvature;
+}
+
+/** The shift at which yaw rates by odometry fit those by scans best; nothing where the rates vary too little to tell. Its deviation comes
+ *  from what single stretches of the log change (the jackknife of Quenouille and Tukey): errors of neighbouring rates are not independent.
+ */
+void findTimeOffset(const Session& session, const std::vector<FinalPose>& poses, OdometryCalibration& calibration)
 {
 	const std::vector<Rates> rates = ratesOf(session, poses);
-	double best = std::numeric_limits<double>::infinity();
-	int at = 0;
-	for (int k = -kOffsetSteps; k <= kOffsetSteps; ++k)
+	const double half_width_s = halfWidth_s(rates);
+	OffsetTable table;
+	for (int k = -kOffsetSteps; k <= kOffsetSteps; ++k) table.push_back(misfits(rates, half_width_s, k * kOffsetStep_s));
+	const auto offset_s = bestOffset_s(table, kBlocks);
+	if (!offset_s) return;
+	double squares = 0;
+	for (size_t block = 0; block < kBlocks; ++block)
 	{
-		const double value = misfit(rates, k * kOffsetStep_s);
-		if (value < best || (value == best && std::abs(k) < std::abs(at)))
-		{
-			best = value;
-			at = k;
-		}
+		const auto without_s = bestOffset_s(table, block);
+		if (!without_s) return;
+		squares += square(*without_s - *offset_s);
 	}
-	if (!std::isfinite(best) || std::abs(at) == kOffsetSteps) return std::nullopt;
-	const double before = misfit(rates, (at - kOffsetWidth) * kOffsetStep_s), behind = misfit(rates, (at + kOffsetWidth) * kOffsetStep_s);
-	const double curvature = before - 2 * best + behind, h_s = kOffsetWidth * kOffsetStep_s;
-	// Deviation of the minimum of a parabola through sums of that many squares.
-	const double deviation_s = h_s * std::sqrt(best / (0.5 * static_cast<double>(rates.size()) * curvature));
-	if (!(curvature > 0) || !(deviation_s < kWorstOffset_s)) return std::nullopt;
-	return at * kOffsetStep_s + 0.5 * h_s * (before - behind) / curvature;
+	const double deviation_s = std::hypot(kFewTurns * std::sqrt(squares * (kBlocks - 1.0) / kBlocks), kLeastOffset_s);
+	if (deviation_s > kWorstOffset_s) return;
+	calibration.time_offset_s = offset_s;
+	calibration.time_offset_deviation_s = deviation_s;
 }
 }  // namespace
 
@@ -189,7 +255,7 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 	calibration.turn_scale = median(turn);
 	calibration.lidar_yaw_rad = median(direction);
 	calibration.gyro_bias_rad_s = gyroBias_rad_s(session, poses);
-	calibration.time_offset_s = timeOffset_s(session, poses);
+	findTimeOffset(session, poses, calibration);
 	return calibration;
 }
 }  // namespace viwo::gt

@@ -14,6 +14,13 @@ struct OdometryCalibration
 	std::optional<double> lidar_yaw_rad;    //!< the lidar seems mounted this much to the left of what sensorPose says
 	std::optional<double> gyro_bias_rad_s;  //!< on top of what was taken off on loading
 	std::optional<double> time_offset_s;    //!< odometry's stamps plus this are the scans'
+	std::optional<double> time_offset_deviation_s;
+
+	/** Whether the offset is more than noise. */
+	bool offsetIsSignificant() const
+	{
+		return time_offset_s && time_offset_deviation_s && std::abs(*time_offset_s) > 3 * *time_offset_deviation_s;
+	}
 };
 
 /** @param poses of all scans; those that are not good are left out. */

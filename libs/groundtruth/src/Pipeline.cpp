@@ -5,6 +5,8 @@
 #include <viwo/core/Error.h>
 #include <viwo/core/Scalars.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <numeric>
 
@@ -16,6 +18,7 @@ constexpr size_t kHoldoutStride = 10;
 constexpr double kContradiction = 30;  // chi2 of a registration that the graph does not believe
 /** Errors of ranges that depend on range, incidence and surface are common to many scans: averaging does not make them smaller. */
 constexpr double kSystematic_m = 0.008;
+constexpr double kLeastScale = 0.004;  // deviation of odometry's scale
 
 double quantile(std::vector<double> values, double fraction)
 {
@@ -119,20 +122,18 @@ double plausible(const std::optional<double>& scale)
 	return scale && *scale > 0.8 && *scale < 1.25 ? *scale : 1;
 }
 
-/** What the log itself says of its odometry. An error of the scale is common to the whole way: where odometry alone holds the robot, the
- *  walk is made wide enough for the scale's uncertainty over all of that. */
+/** What the log itself says of its odometry. */
 MotionCalibration calibrationOf(const OdometryCalibration& found, const FrontEndResult& front_end)
 {
-	double open_way_m = 0;
-	for (size_t k = 1; k < front_end.keys.size(); ++k)
-	{
-		const TrackedScan &a = front_end.scans[front_end.keys[k - 1]], &b = front_end.scans[front_end.keys[k]];
-		if (b.flag != PoseFlag::good) open_way_m += (b.T.p - a.T.p).norm();
-	}
-	MotionCalibration calibration{plausible(found.distance_scale), plausible(found.turn_scale), found.distance_walk, found.gyro_bias_rad_s};
-	if (calibration.distance_walk)
-		calibration.distance_walk = std::sqrt(square(*found.distance_walk) + square(*found.distance_scale_deviation) * open_way_m);
-	return calibration;
+	return {plausible(found.distance_scale), plausible(found.turn_scale), found.distance_walk, found.gyro_bias_rad_s,
+	        front_end.contradicted};
+}
+
+/** The systematic errors of the ranges are in the ways by scans too. */
+CommonErrors commonErrors(const OdometryCalibration& found)
+{
+	if (!found.distance_scale_deviation) return {};
+	return {std::hypot(*found.distance_scale_deviation, kLeastScale)};
 }
 
 /** Key scans that registrations tie to the most part of the map in all directions: beyond a corridor a place can be seen ever so well, its
@@ -161,15 +162,26 @@ std::vector<bool> tiedToMost(const std::vector<GraphEdge>& edges, const std::vec
 	return tied;
 }
 
-void flagUntied(Solution& solution)
+/** Whether a position is known well enough for its distance from the first pose. */
+bool isSure(const FinalPose& pose, const Pose2& first, const GraphOptions& options)
+{
+	Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+	solver.computeDirect(pose.covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+	const double limit_m = std::max(options.good_deviation_m, options.good_deviation_per_m * (pose.T.p - first.p).norm());
+	return solver.eigenvalues()[1] <= square(limit_m);
+}
+
+/** A scan that lies well on its map does not make a good pose where the map itself is loose. */
+void takeBackGood(const GraphOptions& options, Solution& solution)
 {
 	const std::vector<bool> tied = tiedToMost(solution.edges, solution.keys.poses);
 	size_t key = 0;
 	for (size_t i = 0; i < solution.poses.size(); ++i)
 	{
 		while (key + 1 < solution.keys.size() && solution.keys.scan[key + 1] <= i) ++key;
-		PoseFlag& flag = solution.poses[i].flag;
-		if (flag == PoseFlag::good && !tied[key]) flag = PoseFlag::degenerate;
+		FinalPose& pose = solution.poses[i];
+		if (pose.flag == PoseFlag::good && (!tied[key] || !isSure(pose, solution.poses.front().T, options)))
+			pose.flag = PoseFlag::degenerate;
 	}
 }
 
@@ -201,7 +213,9 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 		throw Error(run.rawlogs.front() + ": none of the " + std::to_string(session.scans.size()) +
 		            " scans has enough valid beams on surfaces; check [scan] min_range_m and max_range_m");
 	solution.window_searches = front_end.searches;
-	MotionCalibration calibration = calibrationOf(calibrateOdometry(session, frontEndPoses(front_end)), front_end);
+	solution.contradicted = front_end.contradicted.size();
+	const OdometryCalibration found = calibrateOdometry(session, frontEndPoses(front_end));
+	MotionCalibration calibration = calibrationOf(found, front_end);
 	const MotionModel far(session, options.odometry, calibration);
 	// From scan to scan, jitter of the stamps and quantisation weigh more than what grows with the way.
 	calibration.distance_walk.reset();
@@ -215,15 +229,16 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 
 	LoopCloser closer(keys, chain, options, scales);
 	solution.loops = closer.close(run.threads, stage(0.4, 0.6, "closing loops"));
-	solution.edges = refineKeys(keys, kept, options, scales, run.threads, stage(0.6, 0.85, "refining"));
-	const std::vector<Eigen::Matrix3d> covariances = graphCovariances(solution.edges, keys.poses);
+	GyroTurns gyro = gyroTurns(keys, session, far, options.odometry);
+	solution.edges = refineKeys(keys, kept, gyro, options, scales, run.threads, stage(0.6, 0.85, "refining"));
+	const std::vector<Eigen::Matrix3d> covariances = graphCovariances(solution.edges, keys.poses, gyro, commonErrors(found));
 	solution.poses = placeAllScans(session, front_end, keys, covariances, near, options, scales, held_out, run.threads,
 	                               stage(0.85, 0.95, "placing scans"));
 	for (size_t i = 1; i < solution.poses.size(); ++i)
 		solution.poses[i].covariance.diagonal().head<2>().array() += kSystematic_m * kSystematic_m;
 	if (run.holdout) solution.holdout = compareHoldout(solution.poses, held_out);
 	solution.calibration = calibrateOdometry(session, solution.poses);
-	flagUntied(solution);
+	takeBackGood(options.graph, solution);
 	if (run.align_axes) turnMap(-offAxes_rad(keys), solution);
 	return solution;
 }

@@ -20,6 +20,7 @@ struct Solution
 	std::vector<FinalPose> poses;
 	LoopCounts loops;
 	size_t window_searches = 0;
+	size_t contradicted = 0;  //!< steps of odometry that scans have refuted
 	std::optional<HoldoutErrors> holdout;
 	OdometryCalibration calibration;
 };

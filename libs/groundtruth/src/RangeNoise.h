@@ -8,4 +8,8 @@ namespace viwo::gt
  * on smooth surfaces). Never less than 5 mm.
  */
 double rangeNoise_m(const std::vector<Scan>& scans);
+
+/** Takes all beams from scans that show no surface: hardly any of their beams lies on the line through its neighbours. @return how many.
+ */
+size_t blankNoise(std::vector<Scan>& scans, double noise_m);
 }  // namespace viwo::gt

@@ -102,7 +102,7 @@ void strengthenWeakLinks(const std::vector<std::vector<GraphEdge>>& found, std::
 
 }  // namespace
 
-std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, const GroundTruthOptions& options,
+std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, GyroTurns& gyro, const GroundTruthOptions& options,
                                   const Scales& scales, int threads, const std::function<bool(double)>& proceed)
 {
 	std::vector<GraphEdge> edges;
@@ -114,7 +114,7 @@ std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& 
 		edges = kept;
 		strengthenWeakLinks(found, edges);
 		for (const auto& of_key : found) edges.insert(edges.end(), of_key.begin(), of_key.end());
-		optimizeGraph(edges, keys.poses, 20);
+		optimizeGraph(edges, keys.poses, 20, &gyro);
 	}
 	return edges;
 }

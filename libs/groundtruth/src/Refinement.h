@@ -9,6 +9,6 @@ namespace viwo::gt
  *  @param kept edges of odometry, and those made by hand, that stay in the graph.
  *  @return all edges of the last round.
  */
-std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, const GroundTruthOptions& options,
+std::vector<GraphEdge> refineKeys(KeyScans& keys, const std::vector<GraphEdge>& kept, GyroTurns& gyro, const GroundTruthOptions& options,
                                   const Scales& scales, int threads, const std::function<bool(double)>& proceed);
 }  // namespace viwo::gt

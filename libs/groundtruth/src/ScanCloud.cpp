@@ -1,7 +1,5 @@
 #include "ScanCloud.h"
 
-#include <viwo/core/Scalars.h>
-
 #include <algorithm>
 
 namespace viwo::gt
@@ -21,15 +19,12 @@ std::vector<Beam> beamsOf(const Scan& scan, const ScanOptions& options, const Tw
 {
 	std::vector<Beam> beams;
 	const double n = static_cast<double>(scan.ranges_m.size() - 1);
-	const double far_m = std::min(options.max_range_m, static_cast<double>(scan.max_range_m));
 	const Eigen::Matrix3d R_OL = scan.T_OL.R.toRotationMatrix();
 	for (size_t i = 0; i < scan.ranges_m.size(); ++i)
 	{
 		const double r = static_cast<double>(scan.ranges_m[i]);
 		const double angle = scan.first_angle_rad + scan.step_rad * static_cast<double>(i);
-		if (r <= 0 || r < options.min_range_m || r > far_m || angle < options.first_angle_deg * kDegree ||
-		    angle > options.last_angle_deg * kDegree)
-			continue;
+		if (r <= 0) continue;
 		const Eigen::Vector3d in_O = R_OL * Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0) + scan.T_OL.p;
 		const double dt_s = options.scan_duration_s * (static_cast<double>(i) / n - options.stamp_position);
 		const Pose2 T_at_beam(twist.v * dt_s, twist.w_rad_s * dt_s);

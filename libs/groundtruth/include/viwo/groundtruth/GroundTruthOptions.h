@@ -61,7 +61,8 @@ struct MotionNoiseOptions : Options<MotionNoiseOptions>
 	double distance_per_rad = 0.03;
 	double angle_per_rad = 0.1;
 	double angle_deg_per_m = 2;
-	double gyro_deg_per_sqrt_s = 0.05;
+	double gyro_deg_per_sqrt_s = 0.038;
+	double gyro_bias_walk_deg_s = 1e-3;
 	bool use_imu = true;
 
 	template <class Visitor>
@@ -72,6 +73,8 @@ struct MotionNoiseOptions : Options<MotionNoiseOptions>
 		v("angle_per_rad", angle_per_rad, "standard deviation of the turn, rad per rad", 1e-4, 10.0);
 		v("angle_deg_per_m", angle_deg_per_m, "deg per m of way", 0.0, 90.0);
 		v("gyro_deg_per_sqrt_s", gyro_deg_per_sqrt_s, "of a turn measured by the gyroscope", 1e-4, 90.0);
+		v("gyro_bias_walk_deg_s", gyro_bias_walk_deg_s, "of its bias, deg/s after a second, growing with the square root of time", 1e-7,
+		  1.0);
 		v("use_imu", use_imu, "take turns from the gyroscope where there is one");
 	}
 };
@@ -118,6 +121,8 @@ struct GraphOptions : Options<GraphOptions>
 	double odometry_weight = 0.01;
 	double odometry_weight_degenerate = 1;
 	bool odometry_edges = true;
+	double good_deviation_m = 0.025;
+	double good_deviation_per_m = 0.003;
 
 	template <class Visitor>
 	void visit(Visitor& v)
@@ -130,6 +135,8 @@ struct GraphOptions : Options<GraphOptions>
 		v("odometry_weight_degenerate", odometry_weight_degenerate, "the same where they leave a direction open", 0.0, 100.0);
 		v("odometry_edges", odometry_edges,
 		  "false: the graph is of scans alone (where they say nothing, odometry still holds them, weakly)");
+		v("good_deviation_m", good_deviation_m, "a pose is good if its reported standard deviation is at most this", 0.001, 1e6);
+		v("good_deviation_per_m", good_deviation_per_m, "or this for each metre from the first pose", 0.0, 1.0);
 	}
 };
 

@@ -21,9 +21,9 @@ struct GroundTruthRunOptions
 	std::string output_dir;            //!< made if it is not there
 	std::string config_path;           //!< for the summary only
 	std::string scan_label;            //!< empty: the only one there is
-	std::string odometry_label = "ODOMETRY";
-	std::string imu_label = "IMU";
-	double resolution_m = 0.05;  //!< of the map
+	std::string odometry_label;        //!< empty: ODOMETRY if there is any
+	std::string imu_label;             //!< empty: IMU if there is any
+	double resolution_m = 0.05;        //!< of the map, 0.005 to 1
 	int threads = 1;
 	bool holdout = false;     //!< leave every tenth scan out of graph and map, and compare
 	bool align_axes = false;  //!< turn the map so that most walls lie along its axes
@@ -51,7 +51,7 @@ struct GroundTruthRunResult
 
 /** Rawlogs with scans of a planar lidar, and odometry if there is any, into a folder: trajectory.tum, trajectory_covariance.csv, graph.g2o,
  *  graph_stamps.csv, map.yaml, map.pgm, map.png, map.simplemap, map.gridmap.gz, summary.json, config.ini. Same input, same bytes, whatever
- * the number of threads.
+ * the number of threads. The files appear all together at the end; a run that fails leaves the folder as it was.
  *  @throws Error with one line for the user.
  */
 GroundTruthRunResult runGroundTruth(const GroundTruthRunOptions& options, const GroundTruthRunHooks& hooks = {});
