@@ -188,6 +188,10 @@ TEST(RelationsProgram, HelpUsageAndTable)
 	EXPECT_EQ(some.errorLines(), 1u) << some.err;
 	EXPECT_NE(some.err.find("only 1 of 3 relations"), std::string::npos) << some.err;
 	EXPECT_NE(some.err.find("--stamps"), std::string::npos) << some.err;
+	const ProgramResult nowhere =
+	    runProgram(program, {"relations", "-r", folder.file("r"), "-e", folder.file("e.tum"), "--sensor", "0.1", "nan", "90"});
+	EXPECT_EQ(nowhere.status, 2);
+	EXPECT_NE(nowhere.err.find("--sensor: 'nan' is not a finite number"), std::string::npos) << nowhere.err;
 	writeFile(folder.file("r"), "11 12 1 0 0 0 0 1.5707963\n");
 	const ProgramResult none = runProgram(program, {"relations", "-r", folder.file("r"), "-e", folder.file("e.tum")});
 	EXPECT_EQ(none.status, 1);

@@ -101,8 +101,9 @@ TEST(RealRawlogs, IntelLog)
 	run = runProgram(bin + "viwo-groundtruth", {"-i", rawlog, "-o", truth, "--threads", "2", "--quiet"});
 	ASSERT_EQ(run.status, 0) << run.err;
 	const double before_s = cpuOfChildren_s();
-	run = runProgram(bin + "viwo-octomap", {"-i", rawlog, "-t", truth + "/trajectory.tum", "-o", folder.file("intel.bt"), "--flags",
-	                                        truth + "/trajectory_covariance.csv", "--threads", "2"});
+	run =
+	    runProgram(bin + "viwo-octomap", {"-i", rawlog, "-t", truth + "/trajectory.tum", "-o", folder.file("intel.bt"), "--flags",
+	                                      truth + "/trajectory_covariance.csv", "--threads", "2", "--to-grid", folder.file("intel.yaml")});
 	ASSERT_EQ(run.status, 0) << run.err;
 	// The bound is on the time of a machine that does nothing else: that of all threads together is an upper bound of it under any load.
 	const double cpu_s = cpuOfChildren_s() - before_s, memory_mb = numberAfter(run.out, " s, ");
@@ -112,5 +113,6 @@ TEST(RealRawlogs, IntelLog)
 	EXPECT_LE(cpu_s, 30);
 	EXPECT_LE(memory_mb, 200);
 	EXPECT_GT(memory_mb, 0);
+	EXPECT_GT(fs::file_size(folder.file("intel.pgm")), 100000u) << "its laser is at z = 0";
 }
 }  // namespace viwo
