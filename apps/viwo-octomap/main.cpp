@@ -146,13 +146,32 @@ void requireRisingLimits(const OctoMapRunOptions& run)
 {
 	const HeightSlice& grid = run.grid_slice;
 	if (grid.min_z_m.value_or(HeightSlice::kMin_z_m) > grid.max_z_m.value_or(HeightSlice::kMax_z_m))
-		throw app::UsageError("--grid-max-z is below --grid-min-z");
+		throw app::UsageError("--grid-max-z (2 unless given) is below --grid-min-z (0.05 unless given)");
 	if (run.rays.min_z_m > run.rays.max_z_m) throw app::UsageError("--pointcloud-max-z is below --pointcloud-min-z");
 	if (run.casting.max_range_m > 0 && run.rays.min_range_m >= run.casting.max_range_m)
 		throw app::UsageError("--max-range is not above --min-range: every return would be left out");
 	const SensorModel& model = run.model;
 	if (model.occupancy_threshold <= model.clamping_min || model.occupancy_threshold >= model.clamping_max)
 		throw app::UsageError("--occupancy-thres must lie between --min and --max, or all voxels are the same");
+}
+
+std::vector<std::string> inputsOf(const OctoMapRunOptions& run)
+{
+	std::vector<std::string> inputs{run.rawlog, run.trajectory, run.flags};
+	if (!run.landmarks_dir.empty())
+		for (const char* name : {"landmarks.ply", "landmark_observations.csv", "keyframes.csv", "trajectory.tum"})
+			inputs.push_back((std::filesystem::path(run.landmarks_dir) / name).string());
+	return inputs;
+}
+
+std::vector<std::string> outputsOf(const OctoMapRunOptions& run)
+{
+	std::vector<std::string> outputs{run.output};
+	if (run.both) outputs.push_back(otherOctree(run.output));
+	if (!run.grid.empty()) outputs.insert(outputs.end(), {run.grid, withExtension(run.grid, ".pgm")});
+	for (const std::string& name : {run.ply, run.scan_graph})
+		if (!name.empty()) outputs.push_back(name);
+	return outputs;
 }
 
 void interpret(Arguments& a)
@@ -167,14 +186,9 @@ void interpret(Arguments& a)
 		throw app::UsageError(e.what());
 	}
 	requireRisingLimits(run);
-	std::vector<std::string> outputs{run.output};
-	if (run.both) outputs.push_back(otherOctree(run.output));
 	if (!run.grid.empty() && std::filesystem::path(run.grid).extension() != ".yaml")
 		throw app::UsageError(run.grid + ": a grid map's name ends in .yaml");
-	if (!run.grid.empty()) outputs.insert(outputs.end(), {run.grid, withExtension(run.grid, ".pgm")});
-	for (const std::string& name : {run.ply, run.scan_graph})
-		if (!name.empty()) outputs.push_back(name);
-	app::requireInputsAreKept({run.rawlog, run.trajectory, run.flags}, outputs);
+	app::requireInputsAreKept(inputsOf(run), outputsOf(run));
 	const auto asked = [&](const char* source) { return a.sources.empty() || std::count(a.sources.begin(), a.sources.end(), source) > 0; };
 	run.rays.scans = asked("scans");
 	run.rays.depth = asked("depth");

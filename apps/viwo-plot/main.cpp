@@ -95,7 +95,7 @@ int main(int argc, char** argv)
 			    throw app::UsageError("nothing to draw: give --map, --octomap, --landmarks or --trajectory");
 		    const HeightSlice& slice = arguments.slice;
 		    if (slice.min_z_m.value_or(HeightSlice::kMin_z_m) > slice.max_z_m.value_or(HeightSlice::kMax_z_m))
-			    throw app::UsageError("--max-z is below --min-z");
+			    throw app::UsageError("--max-z (2 unless given) is below --min-z (0.05 unless given)");
 		    saveMapPlot(arguments.output, plotOf(arguments));
 		    std::printf("%s\n", arguments.output.c_str());
 		    return 0;

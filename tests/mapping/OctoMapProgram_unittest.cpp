@@ -228,7 +228,9 @@ TEST(OctoMapProgram, ScansThatTheGridDoesNotShow)
 	expectDone(missed);
 	EXPECT_NE(missed.err.find("40 planar scans lie outside"), std::string::npos) << missed.err;
 	EXPECT_NE(missed.err.find("--grid-min-z"), std::string::npos) << missed.err;
-	arguments.insert(arguments.end(), {"--grid-min-z", "0"});
+	arguments.insert(arguments.end(), {"--grid-min-z", "0", "--to-ply", dir + "/landmarks.ply"});
+	testing::expectRefused(runProgram(kProgram, arguments), {"landmarks.ply", "is an input"});
+	arguments.resize(arguments.size() - 2);
 	const ProgramResult seen = runProgram(kProgram, arguments);
 	expectDone(seen);
 	EXPECT_EQ(seen.err, "");

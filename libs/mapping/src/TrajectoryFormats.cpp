@@ -32,7 +32,7 @@ Trajectory loadKitti(const std::string& path, const std::string& times_path)
 		for (int i = 0; i < 3; ++i)
 			for (int j = 0; j < 4; ++j)
 			{
-				const double value = rows.number(static_cast<size_t>(4 * i + j));
+				const double value = rows.number(4 * static_cast<size_t>(i) + static_cast<size_t>(j));
 				if (j < 3)
 					R(i, j) = value;
 				else
@@ -210,9 +210,9 @@ std::string stampsPathOf(const std::string& path, TrajectoryFormat format)
 
 std::string existingStampsPathOf(const std::string& path, TrajectoryFormat format)
 {
-	const std::string ours = stampsPathOf(path, format);
+	std::string ours = stampsPathOf(path, format);
 	if (ours.empty() || std::filesystem::exists(ours) || !std::filesystem::exists(path)) return ours;
-	const std::string theirs = besides(path, format == TrajectoryFormat::kitti ? "_times.txt" : "_stamps.csv");
+	std::string theirs = besides(path, format == TrajectoryFormat::kitti ? "_times.txt" : "_stamps.csv");
 	if (std::filesystem::exists(theirs)) return theirs;
 	throw Error(path + ": this format has no stamps, and neither " + ours + " nor " + theirs + " is there; name it with --stamps");
 }
