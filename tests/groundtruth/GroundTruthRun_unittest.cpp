@@ -1,9 +1,18 @@
 #include "RoomRun.h"
 
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3DPDF.h>
+#include <mrpt/serialization/CArchive.h>
+#include <viwo/mapping/OccupancyImage.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 using namespace viwo;
 using namespace viwo::gt;
@@ -19,6 +28,68 @@ nlohmann::json summaryOf(const TempFolder& folder, const std::string& out = "out
 void expectSameFiles(const TempFolder& folder, const std::string& a, const std::string& b, std::initializer_list<const char*> names)
 {
 	for (const char* name : names) EXPECT_EQ(readFile(folder.file(a + "/" + name)), readFile(folder.file(b + "/" + name))) << name;
+}
+/** The image is the grid, free where the robot was, and occupied where the walls are. */
+void expectMapIsTheRoom(const TempFolder& folder, const RoomLog& log)
+{
+	mrpt::maps::COccupancyGridMap2D grid;
+	mrpt::io::CFileGZInputStream file(folder.file("out/map.gridmap.gz"));
+	mrpt::serialization::archiveFrom(file) >> grid;
+	OccupancyImage image = loadMapServer(folder.file("out/map.yaml"));
+	EXPECT_EQ(image.columns, static_cast<int>(grid.getSizeX()));
+	EXPECT_EQ(image.rows, static_cast<int>(grid.getSizeY()));
+	EXPECT_NEAR(image.min_x_m, static_cast<double>(grid.getXMin()), 1e-4);
+	EXPECT_NEAR(image.min_y_m, static_cast<double>(grid.getYMin()), 1e-4);
+	EXPECT_TRUE(image.cells == occupancyImage(grid).cells);
+	const auto cellAt = [&](const Eigen::Vector2d& p)
+	{
+		return image.cell(static_cast<int>((p.x() - image.min_x_m) / image.resolution_m),
+		                  static_cast<int>((p.y() - image.min_y_m) / image.resolution_m));
+	};
+	const Trajectory trajectory = Trajectory::loadTum(folder.file("out/trajectory.tum"));
+	size_t free = 0;
+	for (const StampedPose& pose : trajectory.poses()) free += cellAt(pose.T.p.head<2>()) == OccupancyImage::kFree;
+	EXPECT_EQ(free, trajectory.size());
+	// From where the robot was to the wall on its right: a metre or less.
+	size_t near_walls = 0;
+	for (const StampedPose& pose : trajectory.poses())
+	{
+		const double range_m = static_cast<double>(log.range(log.truth.at(pose.t_ns), -M_PI / 2));
+		bool occupied = false;
+		for (double d = -0.1; d <= 0.1; d += 0.025)
+			occupied |= cellAt(pose2(pose.T) * Eigen::Vector2d(0, -range_m + d)) == OccupancyImage::kOccupied;
+		near_walls += occupied;
+	}
+	EXPECT_GT(near_walls, trajectory.size() * 9 / 10);
+}
+
+/** Its key frames are the vertices of the graph, with their scans. */
+void expectSimpleMapIsTheGraph(const TempFolder& folder, const RoomLog& log, const GroundTruthRunResult& result)
+{
+	mrpt::maps::CSimpleMap map;
+	ASSERT_TRUE(map.loadFromFile(folder.file("out/map.simplemap")));
+	EXPECT_EQ(map.size(), result.key_scans);
+	std::istringstream graph(readFile(folder.file("out/graph.g2o")));
+	std::string tag;
+	size_t id = 0;
+	double x = 0, y = 0, yaw = 0;
+	for (size_t k = 0; k < map.size(); ++k)
+	{
+		graph >> tag >> id >> x >> y >> yaw;
+		ASSERT_EQ(tag, "VERTEX_SE2");
+		mrpt::poses::CPose3DPDF::Ptr pose;
+		mrpt::obs::CSensoryFrame::Ptr frame;
+		map.get(k, pose, frame);
+		const auto mean = pose->getMeanVal();
+		EXPECT_NEAR(mean.x(), x, 1e-6);
+		EXPECT_NEAR(mean.y(), y, 1e-6);
+		EXPECT_NEAR(wrapped(mean.yaw() - yaw), 0, 1e-6);
+		const auto scan = frame->getObservationByClass<mrpt::obs::CObservation2DRangeScan>();
+		ASSERT_TRUE(scan);
+		ASSERT_EQ(scan->getScanSize(), static_cast<size_t>(log.beams));
+		const Pose2 truth = RoomLog::poseAt(0.12 * static_cast<double>(id));
+		EXPECT_NEAR(scan->getScanRange(90), log.range(truth, 0), 6 * log.noise_m);
+	}
 }
 }  // namespace
 
@@ -39,6 +110,13 @@ TEST(GroundTruthRun, TwiceAroundTheBlock)
 		EXPECT_GT(std::filesystem::file_size(folder.file(std::string("out/") + name)), 0u) << name;
 
 	EXPECT_EQ(e.poses, log.truth.size());
+	const auto odometry = summaryOf(folder)["odometry"];
+	std::cout << "[measured] odometry " << odometry << "\n";
+	EXPECT_NEAR(odometry["turn_scale"].get<double>(), 1 / log.turn_scale, 0.01);
+	EXPECT_NEAR(odometry["distance_scale"].get<double>(), 1 / log.distance_scale, 0.01);
+	EXPECT_FALSE(odometry["time_offset_significant"]);
+	expectMapIsTheRoom(folder, log);
+	expectSimpleMapIsTheGraph(folder, log, result);
 
 	// The same bytes with two threads.
 	options = optionsFor(folder, "two");
@@ -174,9 +252,17 @@ TEST(GroundTruthProgram, HelpAndUsage)
 	EXPECT_EQ(help.status, 0);
 	EXPECT_NE(help.out.find("Examples:"), std::string::npos);
 	EXPECT_EQ(runProgram(program, {}).status, 2);
-	const ProgramResult failed = runProgram(program, {"-i", "absent.rawlog", "-o", "/nowhere/at/all"});
+	for (const char* resolution : {"nan", "inf", "0", "-1", "1e-9", "1e9"})
+	{
+		const ProgramResult bad = runProgram(program, {"-i", "x.rawlog", "-o", "/nowhere/at/all", "--resolution", resolution});
+		EXPECT_EQ(bad.status, 2) << resolution;
+		EXPECT_EQ(bad.errorLines(), 1u) << bad.err;
+	}
+	const TempFolder folder;
+	const ProgramResult failed = runProgram(program, {"-i", "absent.rawlog", "-o", folder.file("nowhere/at/all")});
 	EXPECT_EQ(failed.status, 1);
 	EXPECT_EQ(failed.errorLines(), 1u) << failed.err;
+	EXPECT_FALSE(std::filesystem::exists(folder.file("nowhere")));
 }
 
 TEST(GroundTruthProgram, SampleRawlog)

@@ -107,7 +107,7 @@ GroundTruthRunResult runGroundTruth(const GroundTruthRunOptions& options, const 
 	progress(0.96, "writing");
 	const std::string& dir = folder.path();
 	writeTrajectory(dir, session, solution.poses);
-	writeGraph(dir, session, solution.keys, solution.edges);
+	writeGraph(dir, session, solution.keys, solution.edges, solution.gyro);
 	writeMaps(dir, session, solution.keys, solution.poses, options.resolution_m);
 	GroundTruthOptions effective = options.options;
 	saveOptions(dir + "/config.ini", effective.sections(), "Effective configuration of viwo-groundtruth");

@@ -1,16 +1,20 @@
 #include "MapFiles.h"
 
+#include <viwo/core/Error.h>
 #include <viwo/mapping/MapPlot.h>
 #include <viwo/mapping/ScanMap.h>
 #include <viwo/rawlog/ObjectFile.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
+#include <cstdio>
 #include <limits>
 
 namespace viwo::gt
 {
 namespace
 {
+constexpr double kMostCells = 3e8;
+
 mrpt::obs::CObservation2DRangeScan::Ptr observationOf(const Scan& scan)
 {
 	return std::make_shared<mrpt::obs::CObservation2DRangeScan>(makeScan(scan.t_ns, scan.ranges_m,
@@ -50,11 +54,28 @@ MapPlot pictureOf(OccupancyImage map, const std::vector<FinalPose>& poses)
 	               stretchesOf(PoseFlag::odometry_only, {220, 40, 40}, poses)};
 	return plot;
 }
+/** @throws Error for a map that no memory holds, before it is tried. */
+void checkSize(const std::vector<FinalPose>& poses, double resolution_m)
+{
+	Eigen::Vector2d min = poses.front().T.p, max = min;
+	for (const FinalPose& pose : poses)
+	{
+		min = min.cwiseMin(pose.T.p);
+		max = max.cwiseMax(pose.T.p);
+	}
+	const Eigen::Vector2d size_m = max - min;
+	if (size_m.allFinite() && size_m.prod() < kMostCells * resolution_m * resolution_m) return;
+	char text[200];
+	std::snprintf(text, sizeof text, "the way covers %.3g x %.3g m, too much for a map in cells of %g m: choose a coarser --resolution",
+	              size_m.x(), size_m.y(), resolution_m);
+	throw Error(text);
+}
 }  // namespace
 
 void writeMaps(const std::string& dir, const Session& session, const KeyScans& keys, const std::vector<FinalPose>& poses,
                double resolution_m)
 {
+	checkSize(poses, resolution_m);
 	std::vector<PosedScan> scans;
 	for (size_t k = 0; k < keys.size(); ++k) scans.push_back({observationOf(session.scans[keys.scan[k]]), pose3(keys.poses[k])});
 	const mrpt::maps::COccupancyGridMap2D grid = gridOf(scans, resolution_m);

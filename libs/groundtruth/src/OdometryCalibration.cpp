@@ -12,7 +12,7 @@ namespace viwo::gt
 namespace
 {
 constexpr double kWindow_s = 1.0, kLongWindow_s = 4.0;
-constexpr size_t kFewest = 20;
+constexpr size_t kFewest = 20, kFewestTurns = 6;
 constexpr double kLongestStep_s = 0.5, kLargestRate_rad_s = 0.2;
 constexpr double kSmoothReadings = 2.5, kLeastSmooth_s = 0.2;
 constexpr double kOffsetStep_s = 0.01, kWorstOffset_s = 0.05;
@@ -43,9 +43,9 @@ std::vector<Step> stepsOf(const Session& session, const std::vector<FinalPose>& 
 	return steps;
 }
 
-std::optional<double> median(std::vector<double> values)
+std::optional<double> median(std::vector<double> values, size_t fewest = kFewest)
 {
-	if (values.size() < kFewest) return std::nullopt;
+	if (values.size() < fewest) return std::nullopt;
 	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
 	std::nth_element(values.begin(), middle, values.end());
 	return *middle;
@@ -252,7 +252,7 @@ OdometryCalibration calibrateOdometry(const Session& session, const std::vector<
 		calibration.distance_scale_deviation =
 		    1.2533 * *median(distance) / kMedianOfNormal / std::sqrt(static_cast<double>(distance.size()));
 	}
-	calibration.turn_scale = median(turn);
+	calibration.turn_scale = median(turn, kFewestTurns);
 	calibration.lidar_yaw_rad = median(direction);
 	calibration.gyro_bias_rad_s = gyroBias_rad_s(session, poses);
 	findTimeOffset(session, poses, calibration);

@@ -229,7 +229,7 @@ Solution solve(const Session& session, const GroundTruthRunOptions& run, const s
 
 	LoopCloser closer(keys, chain, options, scales);
 	solution.loops = closer.close(run.threads, stage(0.4, 0.6, "closing loops"));
-	GyroTurns gyro = gyroTurns(keys, session, far, options.odometry);
+	GyroTurns& gyro = solution.gyro = gyroTurns(keys, session, far, options.odometry);
 	solution.edges = refineKeys(keys, kept, gyro, options, scales, run.threads, stage(0.6, 0.85, "refining"));
 	const std::vector<Eigen::Matrix3d> covariances = graphCovariances(solution.edges, keys.poses, gyro, commonErrors(found));
 	solution.poses = placeAllScans(session, front_end, keys, covariances, near, options, scales, held_out, run.threads,

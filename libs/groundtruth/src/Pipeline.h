@@ -17,6 +17,7 @@ struct Solution
 {
 	KeyScans keys;
 	std::vector<GraphEdge> edges;
+	GyroTurns gyro;
 	std::vector<FinalPose> poses;
 	LoopCounts loops;
 	size_t window_searches = 0;

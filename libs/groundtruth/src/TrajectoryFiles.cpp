@@ -56,7 +56,8 @@ void writeTrajectory(const std::string& dir, const Session& session, const std::
 	writeCovariances(dir + "/trajectory_covariance.csv", session, poses);
 }
 
-void writeGraph(const std::string& dir, const Session& session, const KeyScans& keys, const std::vector<GraphEdge>& edges)
+void writeGraph(const std::string& dir, const Session& session, const KeyScans& keys, const std::vector<GraphEdge>& edges,
+                const GyroTurns& gyro)
 {
 	AtomicFile graph(dir + "/graph.g2o"), stamps(dir + "/graph_stamps.csv");
 	stamps.stream() << "id,t_ns\n";
@@ -70,9 +71,15 @@ void writeGraph(const std::string& dir, const Session& session, const KeyScans& 
 	}
 	for (const GraphEdge& e : edges)
 	{
-		const Eigen::Matrix3d& I = e.information;
+		const Eigen::Matrix3d I = gyro.turns.empty() ? e.information : informationOfMany(e);
 		std::snprintf(text, sizeof text, "EDGE_SE2 %zu %zu %.9f %.9f %.9f %.6g %.6g %.6g %.6g %.6g %.6g\n", keys.scan[e.a], keys.scan[e.b],
 		              e.T_ab.p.x(), e.T_ab.p.y(), e.T_ab.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
+		graph.stream() << text;
+	}
+	for (const GyroTurn& turn : gyro.turns)
+	{
+		std::snprintf(text, sizeof text, "EDGE_SE2 %zu %zu 0 0 %.9f 0 0 0 0 0 %.6g\n", keys.scan[turn.a], keys.scan[turn.b],
+		              wrapped(turn.turn_rad - gyro.biases_rad_s[turn.bias] * turn.dt_s), turn.information);
 		graph.stream() << text;
 	}
 	graph.commit();

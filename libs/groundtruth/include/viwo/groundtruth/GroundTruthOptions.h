@@ -122,7 +122,7 @@ struct GraphOptions : Options<GraphOptions>
 	double odometry_weight_degenerate = 1;
 	bool odometry_edges = true;
 	double good_deviation_m = 0.025;
-	double good_deviation_per_m = 0.003;
+	double good_deviation_per_m = 0.005;
 
 	template <class Visitor>
 	void visit(Visitor& v)
