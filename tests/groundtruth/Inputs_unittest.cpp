@@ -1,3 +1,6 @@
+#include "ExpectError.h"
+#include "InertialYaw.h"
+#include "MapFiles.h"
 #include "OdometryTrack.h"
 #include "RangeNoise.h"
 #include "RoomRun.h"
@@ -9,6 +12,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <random>
 
 using namespace viwo;
@@ -107,6 +111,38 @@ TEST(RangeNoise, NoiseIsToldFromNoisySurfaces)
 	}
 	EXPECT_EQ(blankNoise(scans, rangeNoise_m(scans)), 10u);
 	for (size_t s = 0; s < scans.size(); ++s) EXPECT_EQ(scans[s].ranges_m[90] == 0, s % 4 == 3) << s;
+}
+
+TEST(InertialYaw, WildRatesAreLeftOut)
+{
+	InertialYaw inertial;
+	const double wild[] = {1e9, -1e6, std::nan(""), std::numeric_limits<double>::infinity()};
+	std::vector<Scan> scans(60);
+	for (int i = 0; i < 600; ++i)
+	{
+		ImuSample sample;
+		sample.t_ns = (i + 1) * 10'000'000LL;
+		sample.gyro_rad_s.z() = i % 100 == 7 ? wild[i / 100 % 4] : 0.5;
+		inertial.add(makeImu(sample, Pose3()));
+	}
+	for (size_t s = 0; s < scans.size(); ++s)
+	{
+		scans[s].t_ns = static_cast<int64_t>(s + 1) * 95'000'000;
+		scans[s].odometry = Pose2(0, 0, wrapped(0.5 * 0.095 * static_cast<double>(s)));
+	}
+	double bias_rad_s = 1;
+	EXPECT_EQ(inertial.leftOut(), 6u);
+	ASSERT_TRUE(inertial.integrate(scans, bias_rad_s));
+	EXPECT_NEAR(bias_rad_s, 0, 1e-6);
+}
+
+TEST(MapFiles, AMapThatNoMemoryHoldsIsRefused)
+{
+	const TempFolder folder;
+	Session session;
+	std::vector<FinalPose> poses(2);
+	poses[1].T = Pose2(40000, 30000, 0);
+	expectError([&] { writeMaps(folder.path(), session, {}, poses, 0.05); }, {"4e+04 x 3e+04 m", "--resolution"});
 }
 
 /** Each beam from where the lidar is at the beam's own time, in front of a wall. */
