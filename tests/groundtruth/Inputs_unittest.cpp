@@ -10,6 +10,7 @@
 #include <viwo/evaluation/Consistency.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -260,8 +261,12 @@ TEST(GroundTruthInputs, GoodIsGoodWithBlockedBeamsToo)
 				std::fill(r.begin() + static_cast<long>(block.first), r.begin() + static_cast<long>(block.last), block.range_m);
 		};
 		log.write(folder.file("x.rawlog"));
-		runGroundTruth(optionsFor(folder));
+		const GroundTruthRunResult result = runGroundTruth(optionsFor(folder));
 		const RoomErrors e = errorsOf(folder, log);
+		const size_t told = static_cast<size_t>(std::count_if(result.notes.begin(), result.notes.end(),
+		                                                      [](const std::string& note)
+		                                                      { return note.find("parts of the robot") != std::string::npos; }));
+		EXPECT_EQ(told, block.range_m > 0 ? 1u : 0u) << block.name;
 		size_t good = 0, near = 0, blocked = 0;
 		const auto covariances = loadCovariances(folder.file("out/trajectory_covariance.csv"));
 		const Trajectory trajectory = Trajectory::loadTum(folder.file("out/trajectory.tum"));

@@ -5,6 +5,7 @@
 
 #include <viwo/core/Error.h>
 #include <viwo/core/Scalars.h>
+#include <viwo/core/Time.h>
 #include <viwo/groundtruth/GroundTruthRun.h>
 
 #include <chrono>
@@ -16,6 +17,7 @@ namespace viwo::gt
 namespace
 {
 constexpr double kJump_m = 0.2, kJump_deg = 10;
+constexpr double kWindow_s = 1, kMoving_m = 0.1, kLeastStill_s = 3, kLeastStillShare = 0.05;
 constexpr double kFinestMap_m = 0.005, kCoarsestMap_m = 1;
 
 void check(const GroundTruthRunOptions& options)
@@ -64,6 +66,29 @@ void noteContradictions(const Session& session, const Solution& solution, std::v
 	notes.push_back(text);
 }
 
+/** Wheels that spin; or what goes along with the robot, and holds the scans where they are. */
+void noteStandstill(const Session& session, const Solution& solution, std::vector<std::string>& notes)
+{
+	double still_s = 0, moving_s = 0;
+	for (size_t a = 0, b = 0; a < session.scans.size(); a = b)
+	{
+		for (b = a + 1; b < session.scans.size() && secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns) < kWindow_s;) ++b;
+		if (b >= session.scans.size()) break;
+		const auto &from = session.scans[a].odometry, &to = session.scans[b].odometry;
+		if (!from || !to || between(*from, *to).p.norm() < kMoving_m) continue;
+		const double dt_s = secondsBetween(session.scans[a].t_ns, session.scans[b].t_ns);
+		moving_s += dt_s;
+		if (between(solution.poses[a].T, solution.poses[b].T).p.norm() < 0.5 * between(*from, *to).p.norm()) still_s += dt_s;
+	}
+	if (still_s < kLeastStill_s || still_s < kLeastStillShare * moving_s) return;
+	char text[200];
+	std::snprintf(text, sizeof text,
+	              "for %.0f of %.0f s odometry moved and the scans hardly: wheels that spin, or parts of the robot before the lidar (mask "
+	              "them: [scan])",
+	              still_s, moving_s);
+	notes.push_back(text);
+}
+
 void count(const Session& session, const Solution& solution, GroundTruthRunResult& result)
 {
 	result.scans = session.scans.size();
@@ -72,6 +97,7 @@ void count(const Session& session, const Solution& solution, GroundTruthRunResul
 	result.loops_rejected = solution.loops.rejected;
 	result.notes = session.notes;
 	noteContradictions(session, solution, result.notes);
+	noteStandstill(session, solution, result.notes);
 	for (size_t i = 0; i < solution.poses.size(); ++i)
 	{
 		const FinalPose& pose = solution.poses[i];
