@@ -11,6 +11,7 @@ namespace
 struct Arguments
 {
 	OdometryRunOptions run;
+	std::string rig;
 	std::string mode = "viwo";
 	std::string pose_frame = "O";
 	bool realtime = false;
@@ -19,9 +20,13 @@ struct Arguments
 
 void declare(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("-i,--input", a.run.rawlog, "Rawlog with images, IMU and wheel odometry")->required()->check(app::notEmpty());
+	cli.add_option("-i,--input", a.run.rawlogs,
+	               "Rawlog with images, IMU and wheel odometry; several, in the order of their time, are one run; - is standard input")
+	    ->required()
+	    ->check(app::notEmpty());
 	cli.add_option("-c,--config", a.run.config_path, "Configuration (INI); without it the defaults for a TurtleBot-class robot")
 	    ->check(app::notEmpty());
+	cli.add_option("--rig", a.rig, "Calibration (rig.ini of viwo-calibrate) that counts instead of the rawlog's")->check(app::notEmpty());
 	cli.add_option("-o,--output", a.run.output_dir, "Folder for what is computed")->required()->check(app::notEmpty());
 	cli.add_option("--mode", a.mode, "What is fused: wheel, wio (wheels + IMU), vio (camera + IMU), viwo (all)")
 	    ->check(CLI::IsMember(modeNames()))
@@ -44,6 +49,8 @@ void declare(CLI::App& cli, Arguments& a)
 	    "  viwo-odometry -i run.rawlog -o out\n"
 	    "  viwo-odometry -i run.rawlog -c my_robot.ini -o out --mode wio\n"
 	    "  viwo-odometry -i run.rawlog -o out --from 30 --to 60 --pose-frame C\n"
+	    "  viwo-odometry -i morning_1.rawlog -i morning_2.rawlog -o out\n"
+	    "  ssh robot cat run.rawlog | viwo-odometry -i - -o out\n"
 	    "Exit status: 0 done, 1 failed, 2 bad usage.");
 }
 
@@ -64,7 +71,13 @@ int main(int argc, char** argv)
 	                [&]
 	                {
 		                if (a.run.to_s <= a.run.from_s) throw app::UsageError("--to must be later than --from");
+		                std::replace(a.run.rawlogs.begin(), a.run.rawlogs.end(), std::string("-"), std::string("/dev/stdin"));
 		                if (!a.run.config_path.empty()) a.run.odometry.load(a.run.config_path);
+		                if (!a.rig.empty())
+		                {
+			                a.run.rig = std::make_shared<RigFile>(RigFile::load(a.rig));
+			                a.run.odometry.use(*a.run.rig);
+		                }
 		                const auto mode = std::find(modeNames().begin(), modeNames().end(), a.mode);
 		                a.run.odometry.estimator.mode = static_cast<Mode>(mode - modeNames().begin());
 		                a.run.pose_frame = a.pose_frame == "B" ? PoseFrame::B : a.pose_frame == "C" ? PoseFrame::C : PoseFrame::O;

@@ -57,7 +57,7 @@ class InputCheck : public ::testing::Test
 	OdometryRunOptions options(const std::string& rawlog, Mode mode)
 	{
 		OdometryRunOptions o;
-		o.rawlog = rawlog;
+		o.rawlogs = {rawlog};
 		o.odometry.estimator.mode = mode;
 		return o;
 	}

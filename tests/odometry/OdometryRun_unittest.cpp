@@ -27,7 +27,7 @@ class OdometryRun : public ::testing::Test
 	OdometryRunOptions options()
 	{
 		OdometryRunOptions o;
-		o.rawlog = log_.rawlog;
+		o.rawlogs = {log_.rawlog};
 		o.output_dir = folder_.file("out");
 		o.odometry.estimator.mode = Mode::wio;
 		return o;
@@ -101,7 +101,7 @@ TEST_F(OdometryRun, PoseFramesInModesWithoutTheirSensor)
 		for (const PoseFrame frame : {PoseFrame::O, PoseFrame::B, PoseFrame::C})
 		{
 			OdometryRunOptions o = options();
-			o.rawlog = rawlog;
+			o.rawlogs = {rawlog};
 			o.odometry.estimator.mode = mode;
 			o.pose_frame = frame;
 			runOdometry(o);
@@ -136,7 +136,7 @@ TEST_F(OdometryRun, CoverageIsTimeWithPoses)
 	}
 	writer.close();
 	OdometryRunOptions o = options();
-	o.rawlog = rawlog;
+	o.rawlogs = {rawlog};
 	const OdometryRunResult result = runOdometry(o);
 	const Trajectory trajectory = Trajectory::loadTum(folder_.file("out/trajectory.tum"));
 	double holes_s = 0;
@@ -163,7 +163,7 @@ TEST_F(OdometryRun, NothingUsableIsToldWithItsReason)
 	}
 	writer.close();
 	OdometryRunOptions o = options();
-	o.rawlog = rawlog;
+	o.rawlogs = {rawlog};
 	viwo::testing::expectError([&] { runOdometry(o); }, {"nan.rawlog", "no pose", "IMU: ", "not_finite"});
 }
 
@@ -171,7 +171,7 @@ TEST_F(OdometryRun, LogTooShortForAPose)
 {
 	OdometryRunOptions o = options();
 	o.to_s = 0.2;
-	viwo::testing::expectError([&] { runOdometry(o); }, {o.rawlog, "no pose"});
+	viwo::testing::expectError([&] { runOdometry(o); }, {o.rawlogs.front(), "no pose"});
 }
 
 TEST_F(OdometryRun, EarlierResultsStayUntilNewOnesAreWhole)
@@ -179,7 +179,7 @@ TEST_F(OdometryRun, EarlierResultsStayUntilNewOnesAreWhole)
 	runOdometry(options());
 	const std::string before = viwo::testing::readFile(folder_.file("out/trajectory.tum"));
 	OdometryRunOptions o = options();
-	o.rawlog = folder_.file("none.rawlog");
+	o.rawlogs = {folder_.file("none.rawlog")};
 	viwo::testing::expectError([&] { runOdometry(o); }, {"none.rawlog"});
 	EXPECT_EQ(viwo::testing::readFile(folder_.file("out/trajectory.tum")), before);
 }

@@ -57,7 +57,8 @@ class Look
 			if (s.needed) reader_options.labels.push_back(s.label);
 		reader_options.action_odometry_label = labels().odometry_label;
 		reader_options.skip_missing_images = true;
-		RawlogReader reader(options_.rawlog, reader_options);
+		reader_options.rig = options_.rig;
+		RawlogReader reader(options_.rawlogs, reader_options);
 		const bool reached_end = !scan(reader);
 		if (interrupted_ && interrupted_()) return;
 		requireOneClock(reader.counts());
@@ -69,6 +70,7 @@ class Look
 	}
 
    private:
+	std::string names() const { return rawlogNames(options_.rawlogs); }
 	const AdapterOptions& labels() const { return options_.odometry.rawlog; }
 	Sensor& camera() { return sensors_[0]; }
 	Sensor& imu() { return sensors_[1]; }
@@ -77,7 +79,7 @@ class Look
 	{
 		const EstimatorOptions& e = options_.odometry.estimator;
 		const bool for_its_pose = (kind == SensorKind::camera && !e.useCamera()) || (kind == SensorKind::imu && !e.useImu());
-		return Error(missingSensorError(options_.rawlog, kind, labels(), counts).what() +
+		return Error(missingSensorError(names(), kind, labels(), counts).what() +
 		             std::string(for_its_pose
 		                             ? kind == SensorKind::imu ? " (--pose-frame B needs its pose)" : " (--pose-frame C needs its pose)"
 		                             : ""));
@@ -135,7 +137,7 @@ class Look
 	}
 	catch (const Error& e)
 	{
-		throw Error(options_.rawlog + ": " + e.what());
+		throw Error(names() + ": " + e.what());
 	}
 
 	void take(const mrpt::obs::CObservation::Ptr& observation, int64_t t_ns)
@@ -166,7 +168,7 @@ class Look
 				if (ca->second.read == ca->second.unstamped || cb->second.read == cb->second.unstamped) continue;
 				const double apart_s = secondsBetween(ca->second.last_t_ns, cb->second.first_t_ns) + b.to_imu_clock_s - a.to_imu_clock_s;
 				if (apart_s <= kTolerance_s) continue;
-				throw Error(options_.rawlog + ": " + a.label + " and " + b.label +
+				throw Error(names() + ": " + a.label + " and " + b.label +
 				            " are on different clocks, or were not recorded together: at the same place of the log " + a.label +
 				            " has stamps up to " + formatSeconds(ca->second.last_t_ns) + " s, " + b.label + " from " +
 				            formatSeconds(cb->second.first_t_ns) + " s; record them with one clock");
@@ -180,7 +182,7 @@ class Look
 		if (sensor == counts.sensors.end() || sensor->second.missing_images == 0) return;
 		RawlogReaderOptions reader_options;
 		reader_options.labels = {labels().cam_label};
-		RawlogReader reader(options_.rawlog, reader_options);
+		RawlogReader reader(options_.rawlogs, reader_options);
 		while (reader.next())
 			;
 	}
@@ -191,7 +193,7 @@ class Look
 		if (!e.useCamera() || !e.useImu() || camera().count < 3 || imu().rate_hz() > camera().rate_hz()) return;
 		char rates[96];
 		std::snprintf(rates, sizeof rates, "the IMU has %.1f Hz, the camera %.1f Hz", imu().rate_hz(), camera().rate_hz());
-		throw Error(options_.rawlog + ": " + rates + " (labels " + labels().imu_label + ", " + labels().cam_label +
+		throw Error(names() + ": " + rates + " (labels " + labels().imu_label + ", " + labels().cam_label +
 		            "): an IMU must be faster than the camera; record it at 100 Hz or more, or run --mode wheel");
 	}
 

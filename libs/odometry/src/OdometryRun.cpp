@@ -35,7 +35,7 @@ class Run
 	    : options_(options),
 	      hooks_(hooks),
 	      outputs_(options.output_dir, options.pose_frame),
-	      reader_(options.rawlog, readerOptions(options)),
+	      reader_(options.rawlogs, readerOptions(options)),
 	      odometry_(options.odometry, calibrationOf(options)),
 	      begin_(Clock::now())
 	{
@@ -55,7 +55,9 @@ class Run
 		}
 		catch (const Error& e)
 		{
-			error = std::make_exception_ptr(Error(withRawlog(e.what())));
+			// Being asked to stop cuts the reading of a pipe short, which then looks like damage.
+			result_.interrupted = interrupted();
+			if (!result_.interrupted) error = std::make_exception_ptr(Error(withRawlog(e.what())));
 		}
 		catch (const std::exception&)
 		{
@@ -78,14 +80,15 @@ class Run
 		if (e.useWheels()) r.labels.push_back(labels.odometry_label);
 		r.action_odometry_label = labels.odometry_label;
 		r.allow_truncated = options.allow_truncated;
+		r.rig = options.rig;
 		return r;
 	}
 
 	static Calibration calibrationOf(const OdometryRunOptions& options)
 	{
 		const EstimatorOptions& e = options.odometry.estimator;
-		return readCalibration(options.rawlog, options.odometry.rawlog, e.useCamera() || options.pose_frame == PoseFrame::C,
-		                       e.useImu() || options.pose_frame == PoseFrame::B, true);
+		return readCalibration(options.rawlogs, options.odometry.rawlog, e.useCamera() || options.pose_frame == PoseFrame::C,
+		                       e.useImu() || options.pose_frame == PoseFrame::B, true, options.rig.get());
 	}
 
 	void replay()
@@ -161,7 +164,9 @@ class Run
 	/** The message with the name of the rawlog, unless it stands there already. */
 	std::string withRawlog(const std::string& message) const
 	{
-		return message.find(options_.rawlog) == std::string::npos ? options_.rawlog + ": " + message : message;
+		const auto named = [&](const std::string& path) { return message.find(path) != std::string::npos; };
+		const bool is_named = std::any_of(options_.rawlogs.begin(), options_.rawlogs.end(), named);
+		return is_named ? message : rawlogNames(options_.rawlogs) + ": " + message;
 	}
 
 	/** Observations that could not be used, e.g. "IMU: 3 not_finite, 1 late; ODOMETRY: 2 duplicate_stamp"; empty if all could. */
@@ -213,7 +218,8 @@ class Run
 		result_.final_status = failed ? "failed" : toString(odometry_.status());
 		result_.summary_path = options_.output_dir + "/summary.json";
 		if (const std::string left_out = leftOut(); !left_out.empty())
-			result_.left_out = options_.rawlog + ": observations were left out (" + left_out + "); the results are of the rest";
+			result_.left_out =
+			    rawlogNames(options_.rawlogs) + ": observations were left out (" + left_out + "); the results are of the rest";
 		outputs_.commit();
 		OdometryOptions effective = options_.odometry;
 		saveOptions(options_.output_dir + "/config.ini", effective.sections(),
@@ -235,12 +241,12 @@ class Run
 		    ": the path is %.1f m, but the wheels rolled %.1f m: the result cannot be trusted; check sensorPose and cameraPose, the "
 		    "camera's calibration, and the wheels' settings",
 		    path_m, wheels_m);
-		return options_.rawlog + text;
+		return rawlogNames(options_.rawlogs) + text;
 	}
 
 	std::string noPose() const
 	{
-		const std::string where = options_.rawlog + ": no pose: ";
+		const std::string where = rawlogNames(options_.rawlogs) + ": no pose: ";
 		if (result_.interrupted) return where + "interrupted before the first";
 		if (const std::string left_out = leftOut(); !left_out.empty()) return where + "too much had to be left out (" + left_out + ")";
 		if (result_.frames == 0) return where + "no frame was processed; in the log: " + reader_.counts().describe();

@@ -128,7 +128,7 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	const EstimatorCounters n = odometry.counters();
 	Json j;
 	j["program"] = "viwo-odometry " VIWO_VERSION;
-	j["rawlog"] = options.rawlog;
+	j["rawlog"] = options.rawlogs.size() == 1 ? Json(options.rawlogs.front()) : Json(options.rawlogs);
 	j["config"] = options.config_path;
 	j["mode"] = modeNames()[static_cast<size_t>(options.odometry.estimator.mode)];
 	j["pose_frame"] = options.pose_frame == PoseFrame::O ? "O" : options.pose_frame == PoseFrame::B ? "B" : "C";

@@ -1,8 +1,9 @@
 #include <viwo/core/MrptPose.h>
 #include <viwo/rawlog/ObservationAdapter.h>
 #include <viwo/rawlog/RawlogWriter.h>
+#include <viwo/rawlog/RigFile.h>
 
-#include "ObservationSource.h"
+#include "RawlogSequence.h"
 
 namespace viwo
 {
@@ -40,29 +41,13 @@ struct FirstObservations
 	mrpt::obs::CObservationIMU::Ptr imu;
 	RawlogCounts counts;
 };
-
-/** False at the end. */
-bool readEntry(ObservationSource& source, bool allow_truncated, FirstObservations& first)
-{
-	std::vector<mrpt::obs::CObservation::Ptr> observations;
-	bool more = false;
-	try
-	{
-		more = source.readEntry(observations);
-	}
-	catch (const Error&)
-	{
-		if (!source.truncated() || !allow_truncated) throw;
-	}
-	for (const auto& observation : observations) first.take(observation);
-	return more;
-}
 }  // namespace
 
 Calibration calibrationFrom(const AdapterOptions& options, const mrpt::obs::CObservationImage* image, const mrpt::obs::CObservationIMU* imu)
 {
 	Calibration calibration;
-	calibration.wheels.track_m = options.track_m;
+	calibration.wheels = {options.left_scale, options.right_scale,
+	                      options.calibrated_track_m > 0 ? options.calibrated_track_m : options.track_m};
 	if (imu) calibration.T_OB = finitePose(imu->sensorPose, imu->sensorLabel);
 	if (!image) return calibration;
 	calibration.T_OC = finitePose(image->cameraPose, image->sensorLabel);
@@ -81,19 +66,32 @@ Calibration calibrationFrom(const AdapterOptions& options, const mrpt::obs::CObs
 Calibration readCalibration(const std::string& rawlog_path, const AdapterOptions& options, bool needs_camera, bool needs_imu,
                             bool allow_truncated)
 {
+	return readCalibration(std::vector<std::string>{rawlog_path}, options, needs_camera, needs_imu, allow_truncated);
+}
+
+Calibration readCalibration(const std::vector<std::string>& rawlog_paths, const AdapterOptions& options, bool needs_camera, bool needs_imu,
+                            bool allow_truncated, const RigFile* rig)
+{
 	FirstObservations first(options);
-	ObservationSource source(rawlog_path, options.odometry_label);
+	RawlogSequence source(rawlog_paths, options.odometry_label, allow_truncated);
 	const auto complete = [&] { return (!needs_camera || first.image) && (!needs_imu || first.imu); };
-	while (!complete() && readEntry(source, allow_truncated, first)) continue;
+	std::vector<mrpt::obs::CObservation::Ptr> observations;
+	while (!complete() && source.readEntry(observations))
+		for (const auto& observation : observations)
+		{
+			if (rig) rig->apply(*observation);
+			first.take(observation);
+		}
+	const std::string where = rawlogNames(rawlog_paths);
 	if (!complete())
-		throw missingSensorError(rawlog_path, needs_camera && !first.image ? SensorKind::camera : SensorKind::imu, options, first.counts);
+		throw missingSensorError(where, needs_camera && !first.image ? SensorKind::camera : SensorKind::imu, options, first.counts);
 	try
 	{
 		return calibrationFrom(options, needs_camera ? first.image.get() : nullptr, needs_imu ? first.imu.get() : nullptr);
 	}
 	catch (const Error& e)
 	{
-		throw Error(rawlog_path + ": " + e.what());
+		throw Error(where + ": " + e.what());
 	}
 }
 

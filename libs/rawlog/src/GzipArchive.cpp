@@ -1,9 +1,6 @@
 #include "GzipArchive.h"
 
-#include <viwo/core/Error.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
@@ -17,13 +14,11 @@ constexpr int kGzipWithLargestWindow = 15 + 16;
 constexpr int kCompressionLevel = 1;  // as rawlog-edit: the images, most of a rawlog, are compressed already
 }  // namespace
 
-GzipArchiveReader::GzipArchiveReader(const std::string& path) : input_(kBuffer_bytes), buffer_(kBuffer_bytes)
+GzipArchiveReader::GzipArchiveReader(const std::string& path) : file_(path), input_(kBuffer_bytes), buffer_(kBuffer_bytes)
 {
-	errno = 0;
-	file_.open(path, std::ios::binary);
-	if (!file_) throw Error(path + ": cannot open this rawlog: " + std::strerror(errno) + "; check its name and permissions");
 	if (inflateInit2(&stream_, kGzipWithLargestWindow) != Z_OK) throw std::bad_alloc();
-	is_compressed_ = readInput() && stream_.avail_in >= 2 && input_[0] == kGzipMagic[0] && input_[1] == kGzipMagic[1];
+	while (stream_.avail_in < 2 && readInput()) continue;
+	is_compressed_ = stream_.avail_in >= 2 && input_[0] == kGzipMagic[0] && input_[1] == kGzipMagic[1];
 }
 
 GzipArchiveReader::~GzipArchiveReader()
@@ -33,12 +28,15 @@ GzipArchiveReader::~GzipArchiveReader()
 
 bool GzipArchiveReader::readInput()
 {
-	file_.read(reinterpret_cast<char*>(input_.data()), static_cast<std::streamsize>(input_.size()));
+	// What is left of the input comes first: a pipe may give a single byte.
+	const size_t left = stream_.avail_in;
+	if (left > 0) std::memmove(input_.data(), stream_.next_in, left);
+	const size_t count = file_.read(input_.data() + left, input_.size() - left);
 	stream_.next_in = input_.data();
-	stream_.avail_in = static_cast<uInt>(file_.gcount());
-	position_ += stream_.avail_in;
-	if (file_.bad()) state_ = State::damaged;
-	return stream_.avail_in > 0;
+	stream_.avail_in = static_cast<uInt>(left + count);
+	position_ += count;
+	if (file_.failed()) state_ = State::damaged;
+	return count > 0;
 }
 
 void GzipArchiveReader::copyPlain()

@@ -4,10 +4,11 @@
 #include <zlib.h>
 
 #include <cstdint>
-#include <fstream>
 #include <ostream>
 #include <string>
 #include <vector>
+
+#include "ByteSource.h"
 
 namespace viwo
 {
@@ -50,7 +51,7 @@ class GzipArchiveReader : public mrpt::serialization::CArchive
 	void inflateSome();
 	unsigned char* freeSpace() { return buffer_.data() + end_; }
 
-	std::ifstream file_;
+	ByteSource file_;
 	uint64_t position_ = 0;
 	std::vector<unsigned char> input_;
 	z_stream stream_{};  //!< its next_in, avail_in: what is left of input_

@@ -55,7 +55,8 @@ size_t sharedName(const fs::path& folder, const std::string& rawlog_stem)
 
 std::string ImageFolder::choose(const std::string& name, std::string& reason) const
 {
-	const fs::path rawlog = fs::absolute(rawlog_path_);
+	// A rawlog that comes through standard input has its images where the program was started.
+	const fs::path rawlog = fs::absolute(rawlog_path_ == "/dev/stdin" ? "stdin.rawlog" : rawlog_path_);
 	const std::string stem = rawlog.stem().string();
 	for (const char* suffix : {kSuffix, "_images", "_IMAGES"})
 	{

@@ -52,14 +52,6 @@ std::string unregisteredClass(const std::string& mrpt_message)
 	return mrpt_message.substr(begin + before.size(), end - begin - before.size());
 }
 
-void requireReadableFile(const std::string& path)
-{
-	std::error_code error;
-	if (!fs::exists(path, error)) throw Error(path + ": no such file; check the name of the rawlog");
-	if (fs::is_directory(path, error)) throw Error(path + ": is a folder, not a rawlog");
-	if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0)
-		throw Error(path + ": the file is empty; record or copy it again");
-}
 /** Of the ways to pack a file, rawlogs know gzip alone. */
 void refuseOtherCompression(const std::string& path, const std::string& first_bytes)
 {
@@ -77,8 +69,8 @@ std::string shortClassName(const CObservation& observation)
 	return colon == std::string::npos ? name : name.substr(colon + 1);
 }
 
-ObservationSource::ObservationSource(const std::string& path, const std::string& action_odometry_label)
-    : path_((requireReadableFile(path), path)), archive_(path), action_odometry_(action_odometry_label)
+ObservationSource::ObservationSource(const std::string& path, const ActionOdometry& action_odometry)
+    : path_(path), archive_(path), action_odometry_(action_odometry)
 {
 	// Point clouds and rotating scans are stock observations that live in mrpt-maps.
 	static const bool registered = (mrpt::maps::registerAllClasses_mrpt_maps(), true);

@@ -19,8 +19,10 @@ std::string shortClassName(const mrpt::obs::CObservation& observation);
 class ObservationSource
 {
    public:
-	/** @throws Error: missing, empty, zstd-compressed, not a rawlog. */
-	ObservationSource(const std::string& path, const std::string& action_odometry_label);
+	/** @param action_odometry on which the file's actions build.
+	 *  @throws Error: cannot be opened, no entries, zstd-compressed, not a rawlog.
+	 */
+	ObservationSource(const std::string& path, const ActionOdometry& action_odometry);
 
 	/** The observations of the next entry (none, one, or those of a sensory frame and the actions before it); false at the end,
 	 *  where actions that never got a stamp come first, without one.
@@ -32,6 +34,7 @@ class ObservationSource
 	uint64_t entries() const { return entries_; }
 	const std::string& comment() const { return comment_; }
 	double progress() const;
+	const ActionOdometry& actionOdometry() const { return action_odometry_; }
 
    private:
 	mrpt::serialization::CSerializable::Ptr readObject();

@@ -3,14 +3,16 @@
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
+#include <viwo/rawlog/RigFile.h>
 #include <viwo/rawlog/StampGate.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
 #include "ImageFolder.h"
-#include "ObservationSource.h"
+#include "RawlogSequence.h"
 
 using mrpt::obs::CObservation;
 
@@ -25,6 +27,13 @@ std::string RawlogCounts::describe() const
 	return text.empty() ? "none" : text;
 }
 
+std::string rawlogNames(const std::vector<std::string>& paths)
+{
+	std::string names;
+	for (const std::string& path : paths) names += (names.empty() ? "" : ", ") + path;
+	return names;
+}
+
 struct RawlogReader::Impl
 {
 	/** An observation that waits for its turn, or the message to give at its turn. */
@@ -34,11 +43,10 @@ struct RawlogReader::Impl
 		std::string error;
 	};
 
-	Impl(const std::string& path, const RawlogReaderOptions& options)
-	    : path(path),
-	      options(options),
-	      source(path, options.action_odometry_label),
-	      images(path),
+	Impl(const std::vector<std::string>& paths, const RawlogReaderOptions& options)
+	    : options(options),
+	      source(paths, options.action_odometry_label, options.allow_truncated),
+	      images(source.path()),
 	      gate(options.max_stamp_jump_s, false),
 	      window_ns(nanoseconds(options.reorder_window_s))
 	{
@@ -46,6 +54,8 @@ struct RawlogReader::Impl
 
 	CObservation::Ptr next();
 	void readEntry();
+	bool readEntry(std::vector<CObservation::Ptr>& observations);
+	void requireOrder(const std::vector<CObservation::Ptr>& observations) const;
 	void accept(const CObservation::Ptr& observation);
 	void judged(const StampGate::Verdict& verdict);
 	void enqueue(const CObservation::Ptr& observation);
@@ -56,9 +66,8 @@ struct RawlogReader::Impl
 		return options.labels.empty() || std::find(options.labels.begin(), options.labels.end(), label) != options.labels.end();
 	}
 
-	std::string path;
 	RawlogReaderOptions options;
-	ObservationSource source;
+	RawlogSequence source;
 	ImageFolder images;
 	StampGate gate;
 	RawlogCounts counts;
@@ -80,7 +89,7 @@ bool RawlogReader::Impl::resolveImage(const CObservation::Ptr& observation, std:
 	const std::string file = images.find(name, reason);
 	if (file.empty())
 	{
-		error = path + ": entry " + std::to_string(counts.entries) + ": image file " + name + " is missing: " + reason;
+		error = source.path() + ": entry " + std::to_string(counts.entries) + ": image file " + name + " is missing: " + reason;
 		return false;
 	}
 	image->image.setExternalStorage(file);
@@ -101,6 +110,7 @@ void RawlogReader::Impl::accept(const CObservation::Ptr& observation)
 	sensor.first_t_ns = is_first ? t_ns : std::min(sensor.first_t_ns, t_ns);
 	sensor.last_t_ns = is_first ? t_ns : std::max(sensor.last_t_ns, t_ns);
 	if (!wanted(observation->sensorLabel)) return;
+	if (options.rig) options.rig->apply(*observation);
 	std::string error;
 	if (!resolveImage(observation, error))
 	{
@@ -140,17 +150,42 @@ void RawlogReader::Impl::enqueue(const CObservation::Ptr& observation)
 	queue.emplace(t_ns, Queued{observation, error});
 }
 
+/** Rawlogs given in another order than that of their time would lose all of the later ones as late. */
+void RawlogReader::Impl::requireOrder(const std::vector<CObservation::Ptr>& observations) const
+{
+	for (const auto& o : observations)
+	{
+		if (o->timestamp == INVALID_TIMESTAMP || !wanted(o->sensorLabel) || counts.entries == 0) continue;
+		const int64_t t_ns = nanosecondsOf(o->timestamp);
+		if (t_ns + window_ns >= newest_ns) continue;
+		char text[64];
+		std::snprintf(text, sizeof text, ": begins %.1f s before the end of ", secondsBetween(t_ns, newest_ns));
+		throw Error(source.path() + text + source.pathBefore() + "; give the rawlogs of one run in the order of their time");
+	}
+}
+
+bool RawlogReader::Impl::readEntry(std::vector<CObservation::Ptr>& observations)
+{
+	const size_t file = source.file();
+	const bool more = source.readEntry(observations);
+	if (source.file() == file) return more;
+	images = ImageFolder(source.path());
+	requireOrder(observations);
+	return more;
+}
+
 void RawlogReader::Impl::readEntry()
 {
 	std::vector<CObservation::Ptr> observations;
 	try
 	{
-		ended = !source.readEntry(observations);
+		ended = !readEntry(observations);
 	}
 	catch (const Error& e)
 	{
 		ended = true;
-		if (!source.truncated() || !options.allow_truncated) final_error = e.what();
+		final_error = e.what();
+		observations.clear();
 	}
 	counts.entries = source.entries();
 	for (const auto& observation : observations) accept(observation);
@@ -175,7 +210,14 @@ CObservation::Ptr RawlogReader::Impl::next()
 	return queued.observation;
 }
 
-RawlogReader::RawlogReader(const std::string& path, const RawlogReaderOptions& options) : impl_(std::make_unique<Impl>(path, options)) {}
+RawlogReader::RawlogReader(const std::string& path, const RawlogReaderOptions& options)
+    : RawlogReader(std::vector<std::string>{path}, options)
+{
+}
+RawlogReader::RawlogReader(const std::vector<std::string>& paths, const RawlogReaderOptions& options)
+    : impl_(std::make_unique<Impl>(paths, options))
+{
+}
 RawlogReader::~RawlogReader() = default;
 RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
 
@@ -191,7 +233,7 @@ const RawlogCounts& RawlogReader::counts() const
 {
 	return impl_->counts;
 }
-const std::string& RawlogReader::comment() const
+std::string RawlogReader::comment() const
 {
 	return impl_->source.comment();
 }
@@ -205,6 +247,6 @@ double RawlogReader::progress() const
 }
 const std::string& RawlogReader::path() const
 {
-	return impl_->path;
+	return impl_->source.path();
 }
 }  // namespace viwo

@@ -3,6 +3,7 @@
 #include <viwo/estimator/EstimatorOptions.h>
 #include <viwo/frontend/TrackerOptions.h>
 #include <viwo/rawlog/ObservationAdapter.h>
+#include <viwo/rawlog/RigFile.h>
 
 #include <string>
 #include <vector>
@@ -31,5 +32,10 @@ struct OdometryOptions
 
 	/** @throws Error that names file, section and key. */
 	void load(const std::string& ini_path) { loadOptions(ini_path, sections()); }
+
+	/** Takes noise, clock offsets and wheels from a rig; what it does not know stays. Its camera and mountings count where rawlogs are
+	 * read.
+	 *  @throws Error where its labels are not those of section [rawlog]. */
+	void use(const RigFile& rig);
 };
 }  // namespace viwo

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace viwo
 {
@@ -18,10 +20,11 @@ enum class PoseFrame
 
 struct OdometryRunOptions
 {
-	std::string rawlog;
-	std::string output_dir;   //!< made if it is not there
-	std::string config_path;  //!< for the summary only
+	std::vector<std::string> rawlogs;  //!< of one run, in the order of their time; a pipe counts as a file
+	std::string output_dir;            //!< made if it is not there
+	std::string config_path;           //!< for the summary only
 	OdometryOptions odometry;
+	std::shared_ptr<const RigFile> rig;  //!< sensors that count instead of the rawlog's; null: the rawlog's
 	PoseFrame pose_frame = PoseFrame::O;
 	double from_s = 0;  //!< of the log, from its first stamp
 	double to_s = std::numeric_limits<double>::infinity();
@@ -54,9 +57,9 @@ struct OdometryRunHooks
 	std::function<bool()> interrupted;
 };
 
-/** A rawlog through viwo::Odometry into a folder: trajectory.tum, trajectory_imu_rate.tum, trajectory_covariance.csv, landmarks.ply,
- * landmark_observations.csv, keyframes.csv, summary.json, config.ini. Files appear under their names when they are whole. An error in mid-log, or an interruption, leaves files that
- * are valid up to there.
+/** Rawlogs through viwo::Odometry into a folder: trajectory.tum, trajectory_imu_rate.tum, trajectory_covariance.csv, landmarks.ply,
+ * landmark_observations.csv, keyframes.csv, summary.json, config.ini. Files appear under their names when they are whole. An error in
+ * mid-log, or an interruption, leaves files that are valid up to there.
  *  @throws Error with one line for the user.
  */
 OdometryRunResult runOdometry(const OdometryRunOptions& options, const OdometryRunHooks& hooks = {});

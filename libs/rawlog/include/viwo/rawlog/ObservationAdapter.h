@@ -47,6 +47,8 @@ struct AdapterOptions : Options<AdapterOptions>
 	double metres_per_tick = 0;
 	bool left_inverted = false;
 	bool right_inverted = false;
+	double left_scale = 1, right_scale = 1;
+	double calibrated_track_m = 0;
 	double camera_time_offset_s = 0;
 	double wheel_time_offset_s = 0;
 	double max_wheel_speed_m_s = 50;
@@ -72,6 +74,10 @@ struct AdapterOptions : Options<AdapterOptions>
 		v("metres_per_tick", metres_per_tick, "0: from wheel_radius_m and ticks_per_revolution", 0.0, 100.0);
 		v("left_inverted", left_inverted, "left ticks count backwards");
 		v("right_inverted", right_inverted, "right ticks count backwards");
+		v("left_scale", left_scale, "true radius of the left wheel against nominal, where it was calibrated", 0.1, 10.0);
+		v("right_scale", right_scale, "the same of the right wheel", 0.1, 10.0);
+		v("calibrated_track_m", calibrated_track_m, "true distance between the wheels; 0: track_m, by which the robot computes", 0.0,
+		  100.0);
 		v("camera_time_offset_s", camera_time_offset_s, "t_IMU = t_CAM + this", -10.0, 10.0);
 		v("wheel_time_offset_s", wheel_time_offset_s, "t_IMU = t_WHEEL + this", -10.0, 10.0);
 		v("max_wheel_speed_m_s", max_wheel_speed_m_s, "faster samples are rejected (an encoder that was reset)", 0.01, 1e4);
@@ -180,9 +186,11 @@ class ObservationAdapter
 Calibration calibrationFrom(const AdapterOptions& options, const mrpt::obs::CObservationImage* image,
                             const mrpt::obs::CObservationIMU* imu);
 
-/** The same from the first observations in a rawlog.
+/** The same from the first observations in the rawlogs of a run, or from a rig that counts instead.
  *  @throws Error, also where there is no observation under a label that is needed (it lists those there are).
  */
+Calibration readCalibration(const std::vector<std::string>& rawlog_paths, const AdapterOptions& options, bool needs_camera, bool needs_imu,
+                            bool allow_truncated = false, const RigFile* rig = nullptr);
 Calibration readCalibration(const std::string& rawlog_path, const AdapterOptions& options, bool needs_camera, bool needs_imu,
                             bool allow_truncated = false);
 

@@ -11,6 +11,8 @@
 
 namespace viwo
 {
+struct RigFile;
+
 struct RawlogReaderOptions
 {
 	/** Labels to deliver; empty: all. */
@@ -26,6 +28,8 @@ struct RawlogReaderOptions
 	bool skip_missing_images = false;
 	/** Label of the CObservationOdometry made of the actions of an action/sensory-frame rawlog. */
 	std::string action_odometry_label = "ODOMETRY";
+	/** Calibration that counts instead of the rawlog's; null: the rawlog's. */
+	std::shared_ptr<const RigFile> rig;
 };
 
 /** What was met so far in a rawlog; whole once the reader has reached the end. */
@@ -49,6 +53,9 @@ struct RawlogCounts
 	std::string describe() const;
 };
 
+/** "a.rawlog, b.rawlog": the rawlogs of one run, for messages. */
+std::string rawlogNames(const std::vector<std::string>& paths);
+
 /** Streams the observations of a rawlog in the order of their stamps; memory use is that of the re-ordering window.
  *
  *  Both formats are read (observation-only, and actions with sensory frames), compressed by gzip or not. An odometry action becomes a
@@ -67,6 +74,10 @@ class RawlogReader
    public:
 	/** @throws Error: missing, empty, zstd-compressed, not a rawlog. */
 	explicit RawlogReader(const std::string& path, const RawlogReaderOptions& options = {});
+	/** Several rawlogs, in the order of their time, as one. A pipe counts as a file; what it gave is kept in a temporary file, so that
+	 * other readers of it, too, begin at its beginning. @throws Error as above, for any file that is missing or empty.
+	 */
+	explicit RawlogReader(const std::vector<std::string>& paths, const RawlogReaderOptions& options = {});
 	~RawlogReader();
 	RawlogReader(RawlogReader&&) noexcept;
 
@@ -82,7 +93,7 @@ class RawlogReader
 	const RawlogCounts& counts() const;
 
 	/** Text of the CObservationComment entries, which next() leaves out. */
-	const std::string& comment() const;
+	std::string comment() const;
 
 	/** Folder where external image files were found; "" before the first. */
 	const std::string& imagesFolder() const;
@@ -90,6 +101,7 @@ class RawlogReader
 	/** Fraction of the (compressed) file read, 0 to 1. */
 	double progress() const;
 
+	/** The file that is being read. */
 	const std::string& path() const;
 
    private:

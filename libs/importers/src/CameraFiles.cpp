@@ -1,0 +1,112 @@
+#include "CameraFiles.h"
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/img/TCamera.h>
+#include <viwo/core/Error.h>
+#include <viwo/rawlog/RawlogWriter.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "YamlMap.h"
+
+namespace viwo
+{
+namespace
+{
+CameraModel modelOf(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
+                    CameraModel::Distortion distortion, const std::vector<double>& coefficients)
+{
+	const auto& f = focal_and_centre_px;
+	if (size_px[0] < 1 || size_px[1] < 1) yaml.fail("resolution", "not a size in pixels");
+	if (f[0] <= 0 || f[1] <= 0) yaml.fail("intrinsics", "focal length not above 0");
+	std::array<double, 5> k{};
+	std::copy(coefficients.begin(), coefficients.end(), k.begin());
+	return {static_cast<int>(size_px[0]), static_cast<int>(size_px[1]), f[0], f[1], f[2], f[3], distortion, k};
+}
+
+/** A matrix as a list of rows. */
+std::vector<double> rowsOf(const YamlMap& yaml, const std::string& key)
+{
+	std::vector<double> values;
+	const YAML::Node rows = yaml[key];
+	if (!rows.IsSequence() || rows.size() != 4) yaml.fail(key, "not a matrix of 4 rows");
+	for (const auto& row : rows)
+		for (const double value : yaml.numbers(key, row, 4, 4)) values.push_back(value);
+	return values;
+}
+
+/** ROS's "key: {rows, cols, data}". */
+std::vector<double> dataOf(const YamlMap& yaml, const std::string& key, size_t min_count, size_t max_count)
+{
+	const auto matrix = yaml.map(key);
+	if (!matrix) yaml.fail(key, "missing");
+	return yaml.numbers(key, (*matrix)["data"], min_count, max_count);
+}
+
+std::string camerasIn(const YamlMap& file)
+{
+	std::string names;
+	for (int i = 0; file.map("cam" + std::to_string(i)); ++i) names += (i ? ", cam" : "cam") + std::to_string(i);
+	return names.empty() ? "it has none" : "it has " + names;
+}
+}  // namespace
+
+KalibrCamera readKalibrCamera(const std::string& path, const std::string& camera)
+{
+	const YamlMap file = YamlMap::load(path);
+	const auto yaml = file.map(camera);
+	if (!yaml) file.fail(camera, "no such camera; " + camerasIn(file));
+	if (const std::string model = yaml->word("camera_model"); model != "pinhole")
+		yaml->fail("camera_model", "'" + model + "' is not known here; calibrate it as pinhole-radtan or pinhole-equi");
+	const auto distortion = lensModel(*yaml, "distortion_model");
+	KalibrCamera result;
+	const bool is_ideal = distortion == CameraModel::Distortion::none;
+	const auto coefficients = is_ideal ? std::vector<double>() : yaml->numbers("distortion_coeffs", (*yaml)["distortion_coeffs"], 4, 4);
+	result.model = modelOf(*yaml, yaml->numbers("resolution", (*yaml)["resolution"], 2, 2),
+	                       yaml->numbers("intrinsics", (*yaml)["intrinsics"], 4, 4), distortion, coefficients);
+	if ((*yaml)["T_cam_imu"]) result.T_CB = yaml->rigidTransform("T_cam_imu", rowsOf(*yaml, "T_cam_imu"));
+	result.time_offset_s = (*yaml)["timeshift_cam_imu"] ? yaml->number("timeshift_cam_imu") : 0;
+	return result;
+}
+
+CameraModel readRosCameraInfo(const std::string& path)
+{
+	const YamlMap yaml = YamlMap::load(path);
+	const auto K = dataOf(yaml, "camera_matrix", 9, 9);
+	std::vector<double> coefficients = dataOf(yaml, "distortion_coefficients", 0, 14);
+	CameraModel::Distortion distortion = CameraModel::Distortion::plumb_bob;
+	if (yaml.word("distortion_model") != "rational_polynomial") distortion = lensModel(yaml, "distortion_model");
+	const size_t most = distortion == CameraModel::Distortion::kannala_brandt ? 4 : 5;
+	if (std::any_of(coefficients.begin() + static_cast<std::ptrdiff_t>(std::min(most, coefficients.size())), coefficients.end(),
+	                [](double k) { return k != 0; }))
+		yaml.fail("distortion_coefficients", "more than " + std::to_string(most) + " of them are not 0; calibrate with fewer");
+	coefficients.resize(distortion == CameraModel::Distortion::none ? 0 : std::min(most, coefficients.size()));
+	return modelOf(yaml, {yaml.number("image_width"), yaml.number("image_height")}, {K[0], K[4], K[2], K[5]}, distortion, coefficients);
+}
+
+CameraModel readMrptCamera(const std::string& path)
+{
+	if (!std::filesystem::is_regular_file(path)) throw Error(path + ": no such file; give the INI that MRPT's camera-calib saved");
+	const mrpt::config::CConfigFile file(path);
+	if (!file.sectionExists("CAMERA_PARAMS"))
+		throw Error(path + ": no section [CAMERA_PARAMS]; give the INI that MRPT's camera-calib saved");
+	mrpt::img::TCamera camera;
+	try
+	{
+		camera.loadFromConfigFile("CAMERA_PARAMS", file);
+	}
+	catch (const std::exception&)
+	{
+		throw Error(path + ": [CAMERA_PARAMS] is not complete; it needs resolution, fx, fy, cx, cy, dist");
+	}
+	try
+	{
+		return fromMrpt(camera);
+	}
+	catch (const Error& e)
+	{
+		throw Error(path + ": " + e.what());
+	}
+}
+}  // namespace viwo

@@ -1,0 +1,74 @@
+#include "RawlogSequence.h"
+
+#include <viwo/core/Error.h>
+
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace viwo
+{
+namespace
+{
+void requireReadableFile(const std::string& path)
+{
+	std::error_code error;
+	if (!fs::exists(path, error)) throw Error(path + ": no such file; check the name of the rawlog");
+	if (fs::is_directory(path, error)) throw Error(path + ": is a folder, not a rawlog");
+	if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0)
+		throw Error(path + ": the file is empty; record or copy it again");
+}
+
+/** 0 of a pipe. */
+double bytesOf(const std::string& path)
+{
+	std::error_code error;
+	const auto bytes = fs::file_size(path, error);
+	return error ? 0 : static_cast<double>(bytes);
+}
+}  // namespace
+
+RawlogSequence::RawlogSequence(std::vector<std::string> paths, const std::string& action_odometry_label, bool allow_truncated)
+    : paths_(std::move(paths)), allow_truncated_(allow_truncated)
+{
+	if (paths_.empty()) throw Error("no rawlog was given");
+	for (const std::string& path : paths_)
+	{
+		requireReadableFile(path);
+		bytes_ += bytesOf(path);
+	}
+	source_ = std::make_unique<ObservationSource>(path(), ActionOdometry(action_odometry_label));
+}
+
+bool RawlogSequence::readOfFile(std::vector<mrpt::obs::CObservation::Ptr>& observations)
+try
+{
+	return source_->readEntry(observations);
+}
+catch (const Error&)
+{
+	truncated_ = truncated_ || source_->truncated();
+	if (!source_->truncated() || !allow_truncated_) throw;
+	return false;
+}
+
+bool RawlogSequence::readEntry(std::vector<mrpt::obs::CObservation::Ptr>& observations)
+{
+	while (!readOfFile(observations))
+	{
+		if (file_ + 1 == paths_.size()) return false;
+		auto next = std::make_unique<ObservationSource>(paths_[file_ + 1], source_->actionOdometry());
+		bytes_before_ += bytesOf(path());
+		entries_before_ += source_->entries();
+		comments_before_ += source_->comment();
+		source_ = std::move(next);
+		++file_;
+	}
+	return true;
+}
+
+double RawlogSequence::progress() const
+{
+	return bytes_ > 0 ? (bytes_before_ + source_->progress() * bytesOf(path())) / bytes_ : 0;
+}
+}  // namespace viwo
