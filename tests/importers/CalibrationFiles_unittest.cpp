@@ -147,8 +147,16 @@ TEST_F(CalibrationFilesTest, RosAndMrptCameras)
 	CalibrationFiles mrpt;
 	mrpt.mrpt_camera = write(folder_, "camera.ini",
 	                         "[CAMERA_PARAMS]\nresolution = [640 480]\ncx = 318.25\ncy = 241.75\nfx = 401.5\nfy = 402.5\n"
-	                         "dist = [-0.3 0.1 0.0005 -0.0002 0.01]\ndistortion = plumb_bob\nfocal_length = 0.00356\n");
+	                         "dist = [-0.3 0.1 0.0005 -0.0002 0.01]\nfocal_length = 0.00356\n");
 	expectProjectsAs(importCalibration(mrpt).rig.camera->model(), false, 401.5, 402.5, 318.25, 241.75, {-0.3, 0.1, 0.0005, -0.0002, 0.01});
+
+	// What MRPT itself writes, and reads.
+	CalibrationFiles fisheye;
+	fisheye.mrpt_camera =
+	    write(folder_, "fisheye.ini",
+	          "[CAMERA_PARAMS]\ncamera_name = camera1\nresolution = [640 480]\ncx = 318.25\ncy = 241.75\nfx = 401.5\nfy = 402.5\n"
+	          "distortion_model = kannala_brandt\ndist = [-1.1e-02 6.0e-03 -4.0e-03 7.0e-04 ]\n");
+	expectProjectsAs(importCalibration(fisheye).rig.camera->model(), true, 401.5, 402.5, 318.25, 241.75, {-0.011, 0.006, -0.004, 0.0007});
 
 	mrpt.ros_camera_info = ros.ros_camera_info;
 	expectError([&] { importCalibration(mrpt); }, {"more than one file"});

@@ -91,11 +91,11 @@ TEST_F(RawlogSequenceTest, OdometryOfActionsGoesOn)
 
 TEST_F(RawlogSequenceTest, WrongOrderIsToldAndNothingBeforeIsLost)
 {
-	const std::string a = part("a.rawlog", 0, 1000), b = part("b.rawlog", 1000, 2000);
+	const std::string a = part("a.rawlog", 0, 3000), b = part("b.rawlog", 3000, 6000);
 	RawlogReader reader(std::vector<std::string>{b, a});
 	const PartialRead read = readUntilError(reader);
-	EXPECT_EQ(read.observations.size(), 100u);
-	for (const std::string& part : {a, b, std::string("order of their time"), std::string("2.0 s")})
+	EXPECT_EQ(read.observations.size(), 300u);
+	for (const std::string& part : {a, b, std::string("order of their time"), std::string("6.0 s")})
 		EXPECT_NE(read.error.find(part), std::string::npos) << read.error;
 }
 

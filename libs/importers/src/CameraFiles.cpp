@@ -88,9 +88,12 @@ CameraModel readRosCameraInfo(const std::string& path)
 CameraModel readMrptCamera(const std::string& path)
 {
 	if (!std::filesystem::is_regular_file(path)) throw Error(path + ": no such file; give the INI that MRPT's camera-calib saved");
-	const mrpt::config::CConfigFile file(path);
+	mrpt::config::CConfigFile file(path);
+	file.discardSavingChanges();
 	if (!file.sectionExists("CAMERA_PARAMS"))
 		throw Error(path + ": no section [CAMERA_PARAMS]; give the INI that MRPT's camera-calib saved");
+	// Up to MRPT 2.1 there was one model, which had no name.
+	if (!file.keyExists("CAMERA_PARAMS", "distortion_model")) file.write("CAMERA_PARAMS", "distortion_model", std::string("plumb_bob"));
 	mrpt::img::TCamera camera;
 	try
 	{

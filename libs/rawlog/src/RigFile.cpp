@@ -83,7 +83,7 @@ void RigCamera::setModel(const CameraModel& model)
 	cx_px = model.cx_px();
 	cy_px = model.cy_px();
 	distortion = model.distortion();
-	const auto count = distortion == CameraModel::Distortion::kannala_brandt ? 4 : distortion == CameraModel::Distortion::plumb_bob ? 5 : 0;
+	const auto count = distortion == CameraModel::Distortion::kannala_brandt ? 4 : 5;  // MRPT wants some of an ideal lens, too
 	coefficients.assign(model.coefficients().begin(), model.coefficients().begin() + count);
 }
 

@@ -44,7 +44,7 @@ struct RigCamera : Options<RigCamera>
 	std::vector<double> resolution_px{0, 0};
 	double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
 	CameraModel::Distortion distortion = CameraModel::Distortion::none;
-	std::vector<double> coefficients;
+	std::vector<double> coefficients{0, 0, 0, 0, 0};
 	double time_offset_s = 0;
 
 	/** @throws Error naming the key: no size, no focal length, a wrong count of coefficients. */
@@ -60,7 +60,7 @@ struct RigCamera : Options<RigCamera>
 		v("fy", fy_px, "pixels", 0.0);
 		v("cx", cx_px, "principal point, pixels; pixel centres are at whole numbers");
 		v("cy", cy_px, "pixels");
-		v.choice("distortion", distortion, "of the lens", std::vector<std::string>{"none", "plumb_bob", "kannala_brandt"});
+		v.choice("distortion_model", distortion, "of the lens", std::vector<std::string>{"none", "plumb_bob", "kannala_brandt"});
 		v("dist", coefficients, "plumb_bob: k1 k2 p1 p2 k3; kannala_brandt: k1 k2 k3 k4");
 		v("camera_time_offset_s", time_offset_s, "t_IMU = t_CAM + this", -10.0, 10.0);
 	}
