@@ -2,6 +2,8 @@
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/ObservationAdapter.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 
@@ -40,20 +42,22 @@ struct Path
 	double yaw_rad = 0;
 };
 
-Path integrate(const std::string& rawlog, const AdapterOptions& options)
+/** Up to that time, from the first reading. */
+Path integrate(const std::string& rawlog, const AdapterOptions& options, double end_s = 1e9)
 {
 	RawlogReaderOptions reader_options;
 	reader_options.labels = {options.odometry_label};
 	RawlogReader reader(rawlog, reader_options);
 	ObservationAdapter adapter(options);
-	WheelIntrinsics wheels;
-	wheels.track_m = options.track_m;
+	const WheelIntrinsics wheels = calibrationFrom(options, nullptr, nullptr).wheels;
 	Path path;
-	std::optional<int64_t> last_t_ns;
+	std::optional<int64_t> first_t_ns, last_t_ns;
 	while (const auto o = reader.next())
 	{
 		const auto adapted = adapter.convert(o);
 		const auto* sample = std::get_if<WheelSample>(&adapted.sample);
+		if (!first_t_ns) first_t_ns = nanosecondsOf(o->timestamp);
+		if (secondsBetween(*first_t_ns, nanosecondsOf(o->timestamp)) > end_s) break;
 		if (!sample && last_t_ns) continue;
 		if (sample && last_t_ns)
 		{
@@ -110,6 +114,37 @@ TEST_F(RealRawlogs, EverySourceOfARealOdometryGivesItsPath)
 		EXPECT_NEAR(result.length_m, expected.length_m, 0.003 * expected.length_m) << expected.name;
 		EXPECT_NEAR(result.yaw_rad, expected.yaw_rad, expected.yaw_tolerance_rad) << expected.name;
 	}
+}
+
+/** One number for the two wheels, by the change of heading over the whole drive, explains the heading at every time of it. */
+TEST_F(RealRawlogs, ScalesOfTheWheelsMakeTicksAgreeWithThePoses)
+{
+	const std::string path = file("ual/ual_dataset_2014_05_23_2dlaser_odo.rawlog");
+	if (!missing.empty()) GTEST_SKIP() << "no " << missing;
+	AdapterOptions poses;
+	poses.track_m = 1.250;
+	poses.odometry_source = AdapterOptions::OdometrySource::pose;
+	poses.min_wheel_interval_s = 0.05;
+	AdapterOptions ticks = poses;
+	ticks.odometry_source = AdapterOptions::OdometrySource::ticks_increment;
+	ticks.metres_per_tick = 1.2910e-4;
+	ticks.right_inverted = true;
+
+	const Path expected = integrate(path, poses), raw = integrate(path, ticks);
+	const double half_difference = (raw.yaw_rad - expected.yaw_rad) * ticks.track_m / (2 * raw.length_m);
+	ticks.left_scale = 1 + half_difference;
+	ticks.right_scale = 1 - half_difference;
+
+	const Path got = integrate(path, ticks);
+	double worst_rad = 0;
+	for (double end_s = 20; end_s <= 180; end_s += 20)
+		worst_rad = std::max(worst_rad, std::abs(integrate(path, ticks, end_s).yaw_rad - integrate(path, poses, end_s).yaw_rad));
+	std::cout << "[measured] scales " << ticks.left_scale << ", " << ticks.right_scale << ": " << got.length_m << " m, " << got.yaw_rad
+	          << " rad; poses " << expected.length_m << " m, " << expected.yaw_rad << " rad; heading apart by " << worst_rad * 180 / M_PI
+	          << " deg at most\n";
+	EXPECT_NEAR(got.length_m, expected.length_m, 0.002 * expected.length_m);
+	EXPECT_NEAR(got.yaw_rad, expected.yaw_rad, M_PI / 180);
+	EXPECT_LT(worst_rad, 2.5 * M_PI / 180);
 }
 
 TEST_F(RealRawlogs, ActionsAndSensoryFrames)
