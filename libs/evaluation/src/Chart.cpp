@@ -149,7 +149,7 @@ std::string toSvg(const BarChart& chart, PlotColours colours)
 	std::vector<SvgLegendEntry> entries;
 	for (size_t s = 0; s < chart.series.size(); ++s)
 	{
-		const std::string& fill = c.curves[s % c.curves.size()];
+		const std::string& fill = c.curves[chart.series[s].colour.value_or(s) % c.curves.size()];
 		entries.push_back({chart.series[s].name, "stroke=\"" + fill + "\" stroke-width=\"8\""});
 		for (size_t g = 0; g < chart.groups.size() && g < chart.series[s].values.size(); ++g)
 			body += bar(kLeft + (static_cast<double>(g) + 0.07) * group_width + static_cast<double>(s) * width, 0.92 * width,

@@ -118,8 +118,11 @@ void addStarts(HtmlPage& page, const Request& request, const std::vector<Start>&
 	               {},
 	               {{"VINS-Mono's method", {}}, {"ours, vision-aligned", {}}, {"ours, first metric pose", {}}, {"paper's system", {}}},
 	               1};
-	BarChart errors{
-	    "Average RMSE in the 30 s after the start", "RMSE (m)", {}, {{"VINS-Mono's method", {}}, {"ours", {}}, {"paper's system", {}}}, 2};
+	BarChart errors{"Average RMSE in the 30 s after the start",
+	                "RMSE (m)",
+	                {},
+	                {{"VINS-Mono's method", {}, 0}, {"ours", {}, 1}, {"paper's system", {}, 3}},
+	                3};
 	for (const StartAverages& a : startAverages(starts))
 	{
 		const PaperSequence& paper = paperSequence(a.sequence);
@@ -189,9 +192,10 @@ std::string reportHtml(const Findings& f)
 	if (!f.budgets.empty())
 	{
 		page.heading("Error budget");
-		page.table(errorBudgetTable(f.budgets),
-		           "RMSE of the ATE x-y-z of viwo in centimetres, of drives that are simulated with one source of error alone, and with all "
-		           "others.");
+		page.table(
+		    errorBudgetTable(f.budgets),
+		    "RMSE of the ATE x-y-z of viwo in centimetres, of drives that are simulated with one source of error alone, and with all "
+		    "others.");
 	}
 	if (with_table1)
 	{

@@ -2,6 +2,7 @@
 
 #include <viwo/evaluation/PlotSvg.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct BarChart
 	struct Series
 	{
 		std::string name;
-		std::vector<double> values;  //!< one for each group
+		std::vector<double> values = {};    //!< one for each group
+		std::optional<size_t> colour = {};  //!< of the palette, so that charts side by side agree; its place in the list without it
 	};
 	std::string title, y_label;
 	std::vector<std::string> groups;
