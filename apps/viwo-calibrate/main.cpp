@@ -17,7 +17,7 @@ struct Arguments
 	std::string output;
 };
 
-CLI::App* addImport(CLI::App& cli, Arguments& a)
+void addImport(CLI::App& cli, Arguments& a)
 {
 	CLI::App* command = cli.add_subcommand("import", "Calibration files of Kalibr, ROS or MRPT as a rig.ini");
 	command->add_option("--kalibr", a.files.kalibr_camchain, "Kalibr's camchain-imucam.yaml (or camchain.yaml: the camera alone)");
@@ -33,7 +33,6 @@ CLI::App* addImport(CLI::App& cli, Arguments& a)
 	    ->check(app::notEmpty());
 	command->add_option("--imu-label", a.files.imu_label, "Label of the IMU in the rawlogs")->capture_default_str()->check(app::notEmpty());
 	command->add_option("-o,--output", a.output, "The rig.ini")->required()->check(app::notEmpty());
-	return command;
 }
 
 void print(const std::string& path, const ImportedRig& imported)

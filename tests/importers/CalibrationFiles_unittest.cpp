@@ -150,6 +150,8 @@ TEST_F(CalibrationFilesTest, RosAndMrptCameras)
 	                         "dist = [-0.3 0.1 0.0005 -0.0002 0.01]\nfocal_length = 0.00356\n");
 	expectProjectsAs(importCalibration(mrpt).rig.camera->model(), false, 401.5, 402.5, 318.25, 241.75, {-0.3, 0.1, 0.0005, -0.0002, 0.01});
 
+	EXPECT_EQ(readFile(mrpt.mrpt_camera).find("distortion_model"), std::string::npos) << "the user's file stays as it is";
+
 	// What MRPT itself writes, and reads.
 	CalibrationFiles fisheye;
 	fisheye.mrpt_camera =

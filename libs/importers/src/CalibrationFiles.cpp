@@ -1,7 +1,5 @@
 #include <viwo/core/Error.h>
-#include <viwo/core/So3.h>
 #include <viwo/importers/CalibrationFiles.h>
-#include <viwo/rawlog/RawlogWriter.h>
 
 #include "CameraFiles.h"
 #include "ImuNoise.h"

@@ -14,17 +14,6 @@ namespace viwo
 {
 namespace
 {
-CameraModel modelOf(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
-                    CameraModel::Distortion distortion, const std::vector<double>& coefficients)
-{
-	const auto& f = focal_and_centre_px;
-	if (size_px[0] < 1 || size_px[1] < 1) yaml.fail("resolution", "not a size in pixels");
-	if (f[0] <= 0 || f[1] <= 0) yaml.fail("intrinsics", "focal length not above 0");
-	std::array<double, 5> k{};
-	std::copy(coefficients.begin(), coefficients.end(), k.begin());
-	return {static_cast<int>(size_px[0]), static_cast<int>(size_px[1]), f[0], f[1], f[2], f[3], distortion, k};
-}
-
 /** A matrix as a list of rows. */
 std::vector<double> rowsOf(const YamlMap& yaml, const std::string& key)
 {
@@ -63,8 +52,8 @@ KalibrCamera readKalibrCamera(const std::string& path, const std::string& camera
 	KalibrCamera result;
 	const bool is_ideal = distortion == CameraModel::Distortion::none;
 	const auto coefficients = is_ideal ? std::vector<double>() : yaml->numbers("distortion_coeffs", (*yaml)["distortion_coeffs"], 4, 4);
-	result.model = modelOf(*yaml, yaml->numbers("resolution", (*yaml)["resolution"], 2, 2),
-	                       yaml->numbers("intrinsics", (*yaml)["intrinsics"], 4, 4), distortion, coefficients);
+	result.model = pinholeModel(*yaml, yaml->numbers("resolution", (*yaml)["resolution"], 2, 2),
+	                            yaml->numbers("intrinsics", (*yaml)["intrinsics"], 4, 4), distortion, coefficients);
 	if ((*yaml)["T_cam_imu"]) result.T_CB = yaml->rigidTransform("T_cam_imu", rowsOf(*yaml, "T_cam_imu"));
 	result.time_offset_s = (*yaml)["timeshift_cam_imu"] ? yaml->number("timeshift_cam_imu") : 0;
 	return result;
@@ -82,18 +71,19 @@ CameraModel readRosCameraInfo(const std::string& path)
 	                [](double k) { return k != 0; }))
 		yaml.fail("distortion_coefficients", "more than " + std::to_string(most) + " of them are not 0; calibrate with fewer");
 	coefficients.resize(distortion == CameraModel::Distortion::none ? 0 : std::min(most, coefficients.size()));
-	return modelOf(yaml, {yaml.number("image_width"), yaml.number("image_height")}, {K[0], K[4], K[2], K[5]}, distortion, coefficients);
+	return pinholeModel(yaml, {yaml.number("image_width"), yaml.number("image_height")}, {K[0], K[4], K[2], K[5]}, distortion,
+	                    coefficients);
 }
 
 CameraModel readMrptCamera(const std::string& path)
 {
 	if (!std::filesystem::is_regular_file(path)) throw Error(path + ": no such file; give the INI that MRPT's camera-calib saved");
 	mrpt::config::CConfigFile file(path);
-	file.discardSavingChanges();
 	if (!file.sectionExists("CAMERA_PARAMS"))
 		throw Error(path + ": no section [CAMERA_PARAMS]; give the INI that MRPT's camera-calib saved");
 	// Up to MRPT 2.1 there was one model, which had no name.
 	if (!file.keyExists("CAMERA_PARAMS", "distortion_model")) file.write("CAMERA_PARAMS", "distortion_model", std::string("plumb_bob"));
+	file.discardSavingChanges();  // which it would otherwise do to the user's file when it goes out of scope
 	mrpt::img::TCamera camera;
 	try
 	{

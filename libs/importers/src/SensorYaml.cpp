@@ -1,6 +1,5 @@
 #include "SensorYaml.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "YamlMap.h"
@@ -38,16 +37,13 @@ CameraModel readCameraYaml(const std::string& path)
 		yaml.fail("camera_model", "'" + model + "' is not known; only pinhole is");
 	const auto size = yaml.numbers("resolution", yaml["resolution"], 2, 2);
 	const auto f = yaml.numbers("intrinsics", yaml["intrinsics"], 4, 4);
-	if (size[0] < 1 || size[1] < 1) yaml.fail("resolution", "not a size in pixels");
-	if (f[0] <= 0 || f[1] <= 0) yaml.fail("intrinsics", "focal length not above 0");
 	const auto distortion = lensModel(yaml, "distortion_model");
-	std::array<double, 5> coefficients{};
+	std::vector<double> coefficients;
 	if (distortion != CameraModel::Distortion::none)
 	{
 		const size_t most = distortion == CameraModel::Distortion::plumb_bob ? 5 : 4;
-		const auto k = yaml.numbers("distortion_coefficients", yaml["distortion_coefficients"], 4, most);
-		std::copy(k.begin(), k.end(), coefficients.begin());
+		coefficients = yaml.numbers("distortion_coefficients", yaml["distortion_coefficients"], 4, most);
 	}
-	return {static_cast<int>(size[0]), static_cast<int>(size[1]), f[0], f[1], f[2], f[3], distortion, coefficients};
+	return pinholeModel(yaml, size, f, distortion, coefficients);
 }
 }  // namespace viwo

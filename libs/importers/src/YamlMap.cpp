@@ -2,6 +2,8 @@
 
 #include <viwo/core/Error.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -95,5 +97,16 @@ CameraModel::Distortion lensModel(const YamlMap& yaml, const std::string& key)
 		return CameraModel::Distortion::kannala_brandt;
 	if (name == "none") return CameraModel::Distortion::none;
 	yaml.fail(key, "'" + name + "' is not known; radial-tangential and equidistant are");
+}
+
+CameraModel pinholeModel(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
+                         CameraModel::Distortion distortion, const std::vector<double>& coefficients)
+{
+	const auto& f = focal_and_centre_px;
+	if (size_px[0] < 1 || size_px[1] < 1) yaml.fail("resolution", "not a size in pixels");
+	if (f[0] <= 0 || f[1] <= 0) yaml.fail("intrinsics", "focal length not above 0");
+	std::array<double, 5> k{};
+	std::copy(coefficients.begin(), coefficients.end(), k.begin());
+	return {static_cast<int>(size_px[0]), static_cast<int>(size_px[1]), f[0], f[1], f[2], f[3], distortion, k};
 }
 }  // namespace viwo

@@ -48,4 +48,8 @@ class YamlMap
 
 /** The distortion under its many names: radtan, equidistant, ... @throws Error for others. */
 CameraModel::Distortion lensModel(const YamlMap& yaml, const std::string& key);
+
+/** @param size_px width, height. @param focal_and_centre_px fx fy cx cy. @throws Error under the keys `resolution` and `intrinsics`. */
+CameraModel pinholeModel(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
+                         CameraModel::Distortion distortion, const std::vector<double>& coefficients);
 }  // namespace viwo

@@ -1,5 +1,4 @@
 #include <mrpt/config/CConfigFile.h>
-#include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
