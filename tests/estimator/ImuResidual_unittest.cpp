@@ -85,4 +85,33 @@ TEST(ImuResidual, Jacobians)
 		test::expectJacobians("ImuResidual, whitened rows", cost, states);
 	}
 }
+
+TEST(ImuResidual, JacobiansWithAnOffset)
+{
+	test::Random random(105);
+	const test::ConstantTwist motion = makeMotion(random);
+	const ImuTimeShift shift{random.vector(9, 1), 0.003};
+	const ImuResidual cost(motion.imuBetween(0, 0.5, motion.b_a, motion.b_g), test::gravity, shift);
+	std::vector<test::Blocks> states = test::sampleStates(cost.shapes(), random);
+	states.push_back(statesOf(motion, 0, 0.5));
+	states.back().push_back({0.003});
+	test::expectJacobians("ImuResidual with t_d", cost, states, cost.whiteningFactor().inverse());
+}
+
+TEST(ImuResidual, AnOffsetMovesTheInterval)
+{
+	// Cut 4 ms too late, at the states of the right time: the residual vanishes, to first order, at the offset that says so.
+	test::Random random(106);
+	const test::ConstantTwist motion = makeMotion(random);
+	ImuPreintegration cut = motion.imuBetween(0, 1, motion.b_a, motion.b_g);
+	const auto S = random.vector(9, 1);
+	const ImuResidual plain(cut, test::gravity), with_offset(cut, test::gravity, {S, 0.01});
+	test::Blocks x = statesOf(motion, 0, 1);
+	const Eigen::VectorXd without = unwhitened(plain, x);
+	x.push_back({0.01});
+	EXPECT_EQ((unwhitened(with_offset, x) - without).norm(), 0);
+	x.back()[0] = 0.01 + 1e-6;
+	const Eigen::VectorXd change = (unwhitened(with_offset, x) - without).head<9>();
+	EXPECT_LT((change + 1e-6 * S).norm(), 1e-9);
+}
 }  // namespace viwo

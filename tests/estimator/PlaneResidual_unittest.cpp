@@ -12,6 +12,17 @@ TEST(PlaneResidual, Jacobians)
 	test::expectJacobians("PlaneResidual", PlaneResidual(random.pose(0.8, 0.5), 0.01, 0.02), test::sampleStates(shapes, random));
 }
 
+TEST(PlaneResidual, JacobiansWithMounting)
+{
+	test::Random random(63);
+	const PlaneResidual cost(0.01, 0.02);
+	test::expectJacobians("PlaneResidual with T_BO", cost, test::sampleStates(cost.shapes(), random));
+	const Pose3 T_BO = random.pose(0.8, 0.5), T_WB = random.pose(0.8, 2);
+	const Eigen::Vector3d plane(0.1, -0.2, 0.3);
+	const Eigen::VectorXd given = test::residualAt(PlaneResidual(T_BO, 0.01, 0.02), {test::block(T_WB), test::block(plane)});
+	EXPECT_EQ((test::residualAt(cost, {test::block(T_WB), test::block(plane), test::block(T_BO)}) - given).norm(), 0);
+}
+
 TEST(PlaneResidual, VanishesWhereverTheVehicleStandsOnAnInclinedPlane)
 {
 	test::Random random(62);

@@ -94,4 +94,18 @@ TEST(WheelResidual, Jacobians)
 		test::expectJacobians("WheelResidual, whitened rows", cost, states);
 	}
 }
+
+TEST(WheelResidual, JacobiansWithMountingAndOffsets)
+{
+	test::Random random(115);
+	const test::ConstantTwist motion = makeMotion(random);
+	const WheelResidual cost(motion.wheelsBetween(0, 0.5, motion.wheels), WheelTimeShift{random.vector(6, 1), 0.004});
+	std::vector<test::Blocks> states = test::sampleStates(cost.shapes(), random);
+	for (test::Blocks& x : states) x[2] = test::block(Eigen::Vector3d(Eigen::Vector3d(1, 1, 0.23) + random.vector3(0.02)));
+	test::Blocks truth = statesOf(motion, 0, 0.5);
+	truth.insert(truth.end(), {test::block(motion.T_BO), {0.007}, {0.003}});
+	EXPECT_LT((cost.whiteningFactor().inverse() * test::residualAt(cost, truth)).norm(), 1e-12);
+	states.push_back(truth);
+	test::expectJacobians("WheelResidual with T_BO, t_d, t_w", cost, states, cost.whiteningFactor().inverse());
+}
 }  // namespace viwo

@@ -6,12 +6,15 @@
 
 #include <viwo/core/So3.h>
 
+#include <utility>
+
 namespace viwo
 {
 namespace
 {
 using S = StateOrder;
 constexpr int motion_size = S::size - S::v;
+constexpr size_t offset_block = 4;
 constexpr int motion_v = 0, motion_b_a = S::b_a - S::v, motion_b_g = S::b_g - S::v;
 using Vector3 = Eigen::Map<const Eigen::Vector3d>;
 template <int N>
@@ -21,13 +24,29 @@ using JacobianMap = Eigen::Map<Eigen::Matrix<double, S::size, N, Eigen::RowMajor
 }  // namespace
 
 ImuResidual::ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2)
-    : LocalCost(S::size, {BlockShape::pose(), BlockShape::euclidean(motion_size), BlockShape::pose(), BlockShape::euclidean(motion_size)}),
+    : ImuResidual(preintegration, gravity_m_s2,
+                  {BlockShape::pose(), BlockShape::euclidean(motion_size), BlockShape::pose(), BlockShape::euclidean(motion_size)}, {})
+{
+}
+
+ImuResidual::ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2, const ImuTimeShift& shift)
+    : ImuResidual(preintegration, gravity_m_s2,
+                  {BlockShape::pose(), BlockShape::euclidean(motion_size), BlockShape::pose(), BlockShape::euclidean(motion_size),
+                   BlockShape::euclidean(1)},
+                  shift)
+{
+}
+
+ImuResidual::ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2, std::vector<BlockShape> shapes,
+                         const ImuTimeShift& shift)
+    : LocalCost(S::size, std::move(shapes)),
       delta_(preintegration.delta()),
       bias_jacobian_(preintegration.biasJacobian()),
       b_a_(preintegration.b_a()),
       b_g_(preintegration.b_g()),
       dt_s_(preintegration.dt_s()),
       g_up_(0, 0, gravity_m_s2),
+      shift_(shift),
       whiten_(whitening<S::size>(preintegration.covariance()))
 {
 }
@@ -40,7 +59,8 @@ ImuResidual::Terms ImuResidual::evaluate(double const* const* x, Vector15& r) co
 
 	Eigen::Matrix<double, 6, 1> bias_change;
 	bias_change << Vector3(x[1] + motion_b_a) - b_a_, Vector3(x[1] + motion_b_g) - b_g_;
-	const Eigen::Matrix<double, 9, 1> correction = bias_jacobian_ * bias_change;
+	Eigen::Matrix<double, 9, 1> correction = bias_jacobian_ * bias_change;
+	if (shapes().size() > offset_block) correction += shift_.per_s * (x[offset_block][0] - shift_.at_s);
 	Terms t;
 	t.theta = correction.segment<3>(S::phi);
 	const Eigen::Quaterniond gamma = delta_.gamma * so3::expQuaternion(t.theta);
@@ -67,6 +87,7 @@ bool ImuResidual::evaluateLocal(double const* const* x, double* residuals, doubl
 	const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
 	const Eigen::Vector3d r_phi = r.segment<3>(S::phi);
 	const Eigen::Matrix3d J_phi = so3::rightJacobianInverse(r_phi);
+	const Eigen::Matrix3d J_gamma = -J_phi * so3::exp(r_phi).transpose() * so3::rightJacobian(t.theta);  // of r_phi by theta
 	if (jacobians[0])
 	{
 		Jacobian<6> J = Jacobian<6>::Zero();
@@ -82,8 +103,7 @@ bool ImuResidual::evaluateLocal(double const* const* x, double* residuals, doubl
 		J.block<3, 3>(S::p, motion_v) = -dt_s_ * t.R_BiW;
 		J.block<3, 3>(S::v, motion_v) = -t.R_BiW;
 		J.block<9, 6>(0, motion_b_a) = -bias_jacobian_;
-		J.block<3, 6>(S::phi, motion_b_a) =
-		    -J_phi * so3::exp(r_phi).transpose() * so3::rightJacobian(t.theta) * bias_jacobian_.middleRows<3>(S::phi);
+		J.block<3, 6>(S::phi, motion_b_a) = J_gamma * bias_jacobian_.middleRows<3>(S::phi);
 		J.block<3, 3>(S::b_a, motion_b_a) = -I;
 		J.block<3, 3>(S::b_g, motion_b_g) = -I;
 		JacobianMap<motion_size>{jacobians[1]} = whiten_ * J;
@@ -102,6 +122,13 @@ bool ImuResidual::evaluateLocal(double const* const* x, double* residuals, doubl
 		J.block<3, 3>(S::b_a, motion_b_a) = I;
 		J.block<3, 3>(S::b_g, motion_b_g) = I;
 		JacobianMap<motion_size>{jacobians[3]} = whiten_ * J;
+	}
+	if (shapes().size() > offset_block && jacobians[offset_block])
+	{
+		Vector15 J = Vector15::Zero();
+		J.head<9>() = -shift_.per_s;
+		J.segment<3>(S::phi) = J_gamma * shift_.per_s.segment<3>(S::phi);
+		Eigen::Map<Vector15>{jacobians[offset_block]} = whiten_ * J;
 	}
 	return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ImuPreintegration.h"
+#include "TimeShift.h"
 #include "residuals/LocalCost.h"
 
 #include <Eigen/Core>
@@ -18,7 +19,10 @@ namespace viwo
  *  with, to first order in the change d of the biases since the preintegration, alpha + J_alpha d, beta + J_beta d,
  *  gamma Exp(theta), theta = J_phi d; hence dr_phi = -J_r^-1(r_phi) Exp(r_phi)^T J_r(theta) J_phi dd.
  *
- *  Blocks: pose T_WB_i, motion_i (v, b_a, b_g), pose T_WB_j, motion_j. 15 residuals.
+ *  Where the offset of the frames' clock is estimated too (t_IMU = t_CAM + t_d), the interval's shift adds to the correction of alpha,
+ *  gamma and beta: S (t_d - t_d0).
+ *
+ *  Blocks: pose T_WB_i, motion_i (v, b_a, b_g), pose T_WB_j, motion_j; with a shift also t_d (s). 15 residuals.
  */
 class ImuResidual : public LocalCost
 {
@@ -27,6 +31,8 @@ class ImuResidual : public LocalCost
 
 	/** Copies what it needs. */
 	ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2);
+	/** With the block of the offset. */
+	ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2, const ImuTimeShift& shift);
 
 	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
 
@@ -34,6 +40,8 @@ class ImuResidual : public LocalCost
 	const Whitening& whiteningFactor() const { return whiten_; }
 
    private:
+	ImuResidual(const ImuPreintegration& preintegration, double gravity_m_s2, std::vector<BlockShape> shapes, const ImuTimeShift& shift);
+
 	using Vector15 = Eigen::Matrix<double, 15, 1>;
 	/** What residual and Jacobians share. */
 	struct Terms
@@ -50,6 +58,7 @@ class ImuResidual : public LocalCost
 	Eigen::Vector3d b_a_, b_g_;
 	double dt_s_;
 	Eigen::Vector3d g_up_;
+	ImuTimeShift shift_;
 	Whitening whiten_;
 };
 }  // namespace viwo

@@ -12,12 +12,16 @@ namespace viwo
  *      R_WO = R_WB R_BO,  p_WO = p_WB + R_WB p_BO
  *      r   = [ x and y of R_WO^T n / sigma_tilt,  (n^T p_WO - height) / sigma_height ]
  *
- *  Blocks: pose T_WB, plane (tilt_x, tilt_y in rad, height in m). Three residuals.
+ *  A change (dp, dphi) of T_BO, where that is a state too, moves the first two by [R_WO^T n]_x dphi and the third by n^T R_WB dp.
+ *
+ *  Blocks: pose T_WB, plane (tilt_x, tilt_y in rad, height in m), and T_BO unless it is given. Three residuals.
  */
 class PlaneResidual : public LocalCost
 {
    public:
 	PlaneResidual(const Pose3& T_BO, double sigma_tilt_rad, double sigma_height_m);
+	/** With the block of T_BO. */
+	PlaneResidual(double sigma_tilt_rad, double sigma_height_m);
 
 	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
 

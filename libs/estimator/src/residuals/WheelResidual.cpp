@@ -5,60 +5,118 @@
 
 #include <viwo/core/So3.h>
 
+#include <utility>
+
 namespace viwo
 {
+namespace
+{
+constexpr size_t mounting_block = 3, camera_offset_block = 4, wheel_offset_block = 5;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using PoseJacobian = Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>;
+}  // namespace
+
 WheelResidual::WheelResidual(const WheelPreintegration& preintegration, const Pose3& T_BO, double covariance_inflation)
-    : LocalCost(6, {BlockShape::pose(), BlockShape::pose(), BlockShape::euclidean(3)}),
+    : WheelResidual(preintegration, T_BO, covariance_inflation, {BlockShape::pose(), BlockShape::pose(), BlockShape::euclidean(3)}, {})
+{
+}
+
+WheelResidual::WheelResidual(const WheelPreintegration& preintegration, const WheelTimeShift& shift)
+    : WheelResidual(preintegration, Pose3(), 1,
+                    {BlockShape::pose(), BlockShape::pose(), BlockShape::euclidean(3), BlockShape::pose(), BlockShape::euclidean(1),
+                     BlockShape::euclidean(1)},
+                    shift)
+{
+}
+
+WheelResidual::WheelResidual(const WheelPreintegration& preintegration, const Pose3& T_BO, double covariance_inflation,
+                             std::vector<BlockShape> shapes, const WheelTimeShift& shift)
+    : LocalCost(6, std::move(shapes)),
       dp_(preintegration.dp()),
       dR_(preintegration.dR()),
       intrinsics_jacobian_(preintegration.intrinsicsJacobian()),
       intrinsics_(preintegration.intrinsics().k_left, preintegration.intrinsics().k_right, preintegration.intrinsics().track_m),
       T_BO_(T_BO),
+      shift_(shift),
       whiten_(whitening<6>(covariance_inflation * preintegration.covariance()))
 {
 }
 
+WheelResidual::Terms WheelResidual::evaluate(double const* const* x, double* residuals) const
+{
+	Terms t;
+	t.T_i = poseFromBlock(x[0]);
+	t.T_j = poseFromBlock(x[1]);
+	t.T_BO = T_BO_;
+	Vector6d correction = intrinsics_jacobian_ * (Eigen::Map<const Eigen::Vector3d>(x[2]) - intrinsics_);
+	if (shapes().size() > mounting_block)
+	{
+		t.T_BO = poseFromBlock(x[mounting_block]);
+		correction += shift_.per_s * (x[camera_offset_block][0] - x[wheel_offset_block][0] - shift_.at_s);
+	}
+	t.theta = correction.tail<3>();
+	const Eigen::Quaterniond dR = dR_ * so3::expQuaternion(t.theta);
+
+	t.R_WOi = t.T_i.R * t.T_BO.R;
+	t.R_WOj = t.T_j.R * t.T_BO.R;
+	const Eigen::Matrix3d R_OB = t.T_BO.R.conjugate().toRotationMatrix();
+	t.p_BiOj = t.T_i.R.conjugate() * (t.T_j * t.T_BO.p - t.T_i.p);
+	t.lever = R_OB * (t.p_BiOj - t.T_BO.p);
+	t.r_phi = so3::log(Eigen::Quaterniond(dR.conjugate() * t.R_WOi.conjugate() * t.R_WOj));
+	Vector6d r;
+	r << t.lever - dp_ - correction.head<3>(), t.r_phi;
+	Eigen::Map<Vector6d>{residuals} = whiten_ * r;
+	return t;
+}
+
 bool WheelResidual::evaluateLocal(double const* const* x, double* residuals, double** jacobians) const
 {
-	const Pose3 T_i = poseFromBlock(x[0]);
-	const Pose3 T_j = poseFromBlock(x[1]);
-	const Vector6d correction = intrinsics_jacobian_ * (Eigen::Map<const Eigen::Vector3d>(x[2]) - intrinsics_);
-	const Eigen::Vector3d theta = correction.tail<3>();
-	const Eigen::Quaterniond dR = dR_ * so3::expQuaternion(theta);
-
-	const Eigen::Quaterniond R_WOi = T_i.R * T_BO_.R;
-	const Eigen::Quaterniond R_WOj = T_j.R * T_BO_.R;
-	const Eigen::Matrix3d R_OB = T_BO_.R.conjugate().toRotationMatrix();
-	const Eigen::Matrix3d R_OiW = R_WOi.conjugate().toRotationMatrix();
-	const Eigen::Vector3d p_BiOj = T_i.R.conjugate() * (T_j * T_BO_.p - T_i.p);
-	const Eigen::Vector3d r_phi = so3::log(Eigen::Quaterniond(dR.conjugate() * R_WOi.conjugate() * R_WOj));
-	Vector6d r;
-	r << R_OB * (p_BiOj - T_BO_.p) - dp_ - correction.head<3>(), r_phi;
-	Eigen::Map<Vector6d>{residuals} = whiten_ * r;
+	const Terms t = evaluate(x, residuals);
 	if (!jacobians) return true;
 
-	using Matrix6d = Eigen::Matrix<double, 6, 6>;
-	using PoseJacobian = Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>;
+	const Eigen::Matrix3d R_OB = t.T_BO.R.conjugate().toRotationMatrix();
+	const Eigen::Matrix3d R_OiW = t.R_WOi.conjugate().toRotationMatrix();
 	const Eigen::Matrix3d zero = Eigen::Matrix3d::Zero();
-	const Eigen::Matrix3d J_phi = so3::rightJacobianInverse(r_phi);
+	const Eigen::Matrix3d J_phi = so3::rightJacobianInverse(t.r_phi);
+	const Eigen::Matrix3d J_dR = -J_phi * so3::exp(t.r_phi).transpose() * so3::rightJacobian(t.theta);  // of r_phi by theta
 	if (jacobians[0])
 	{
 		Matrix6d J;
-		J << -R_OiW, R_OB * so3::skew(p_BiOj), zero, -J_phi * (R_WOj.conjugate() * T_i.R).toRotationMatrix();
+		J << -R_OiW, R_OB * so3::skew(t.p_BiOj), zero, -J_phi * (t.R_WOj.conjugate() * t.T_i.R).toRotationMatrix();
 		PoseJacobian{jacobians[0]} = whiten_ * J;
 	}
 	if (jacobians[1])
 	{
 		Matrix6d J;
-		J << R_OiW, -R_OiW * T_j.R.toRotationMatrix() * so3::skew(T_BO_.p), zero, J_phi * R_OB;
+		J << R_OiW, -R_OiW * t.T_j.R.toRotationMatrix() * so3::skew(t.T_BO.p), zero, J_phi * R_OB;
 		PoseJacobian{jacobians[1]} = whiten_ * J;
 	}
 	if (jacobians[2])
 	{
 		Eigen::Matrix<double, 6, 3> J = -intrinsics_jacobian_;
-		J.bottomRows<3>() = -J_phi * so3::exp(r_phi).transpose() * so3::rightJacobian(theta) * intrinsics_jacobian_.bottomRows<3>();
+		J.bottomRows<3>() = J_dR * intrinsics_jacobian_.bottomRows<3>();
 		Eigen::Map<Eigen::Matrix<double, 6, 3, Eigen::RowMajor>>{jacobians[2]} = whiten_ * J;
 	}
+	if (shapes().size() > mounting_block) calibrationJacobians(t, J_phi, J_dR, jacobians);
 	return true;
+}
+
+void WheelResidual::calibrationJacobians(const Terms& t, const Eigen::Matrix3d& J_phi, const Eigen::Matrix3d& J_dR,
+                                         double** jacobians) const
+{
+	const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+	if (jacobians[mounting_block])
+	{
+		const Eigen::Matrix3d R_OB = t.T_BO.R.conjugate().toRotationMatrix();
+		const Eigen::Matrix3d R_BiBj = (t.T_i.R.conjugate() * t.T_j.R).toRotationMatrix();
+		const Eigen::Matrix3d R_OjOi = (t.R_WOj.conjugate() * t.R_WOi).toRotationMatrix();
+		Matrix6d J;
+		J << R_OB * (R_BiBj - I), so3::skew(t.lever), Eigen::Matrix3d::Zero(), J_phi * (I - R_OjOi);
+		PoseJacobian{jacobians[mounting_block]} = whiten_ * J;
+	}
+	Vector6d J = -shift_.per_s;
+	J.tail<3>() = J_dR * shift_.per_s.tail<3>();
+	if (jacobians[camera_offset_block]) Eigen::Map<Vector6d>{jacobians[camera_offset_block]} = whiten_ * J;
+	if (jacobians[wheel_offset_block]) Eigen::Map<Vector6d>{jacobians[wheel_offset_block]} = -(whiten_ * J);
 }
 }  // namespace viwo

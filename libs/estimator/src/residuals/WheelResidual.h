@@ -1,11 +1,13 @@
 #pragma once
 
+#include "TimeShift.h"
 #include "WheelPreintegration.h"
 #include "residuals/LocalCost.h"
 
 #include <viwo/core/Pose3.h>
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace viwo
 {
@@ -16,7 +18,15 @@ namespace viwo
  *  with, to first order in the change d of the intrinsics since the preintegration, dp + J_p d and dR Exp(theta), theta = J_phi d.
  *  The lever arm is here only and not in the preintegration.
  *
- *  Blocks: pose T_WB_i, pose T_WB_j, wheel intrinsics (k_left, k_right, track in m). Six residuals.
+ *  Where the wheels' place and the clocks are estimated too, T_BO is a state, and the interval's shift adds to the correction:
+ *  S (t_d - t_w - shift_0), since frames are at t_CAM + t_d - t_w in the wheels' clock (t_IMU = t_CAM + t_d = t_WHEEL + t_w). Then
+ *
+ *      dr_p = [R_BO^T (p_BiOj - p_BO)]_x dphi + R_BO^T (R_BiBj - I) dp,   dr_phi = J_r^-1(r_phi) (I - R_OiOj^T) dphi
+ *
+ *  for a change (dp, dphi) of T_BO, with p_BiOj the place of O_j in B_i.
+ *
+ *  Blocks: pose T_WB_i, pose T_WB_j, wheel intrinsics (k_left, k_right, track in m); with a shift also pose T_BO, t_d (s), t_w (s). Six
+ *  residuals.
  */
 class WheelResidual : public LocalCost
 {
@@ -26,6 +36,8 @@ class WheelResidual : public LocalCost
 	/** Copies what it needs.
 	 *  @param covariance_inflation factor on the covariance, > 1 when the wheels are thought to have slipped. */
 	WheelResidual(const WheelPreintegration& preintegration, const Pose3& T_BO, double covariance_inflation = 1);
+	/** With the blocks of T_BO and of both offsets. @param shift at t_d - t_w. */
+	WheelResidual(const WheelPreintegration& preintegration, const WheelTimeShift& shift);
 
 	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
 
@@ -33,11 +45,25 @@ class WheelResidual : public LocalCost
 	const Whitening& whiteningFactor() const { return whiten_; }
 
    private:
+	WheelResidual(const WheelPreintegration& preintegration, const Pose3& T_BO, double covariance_inflation, std::vector<BlockShape> shapes,
+	              const WheelTimeShift& shift);
+	/** What residual and Jacobians share. */
+	struct Terms
+	{
+		Pose3 T_i, T_j, T_BO;
+		Eigen::Quaterniond R_WOi, R_WOj;
+		Eigen::Vector3d p_BiOj, lever;  //!< lever: of O_j from O_i, in O_i
+		Eigen::Vector3d theta, r_phi;   //!< theta: correction of dR
+	};
+	Terms evaluate(double const* const* x, double* residuals) const;
+	void calibrationJacobians(const Terms& t, const Eigen::Matrix3d& J_phi, const Eigen::Matrix3d& J_dR, double** jacobians) const;
+
 	Eigen::Vector3d dp_;
 	Eigen::Quaterniond dR_;
 	WheelPreintegration::IntrinsicsJacobian intrinsics_jacobian_;
 	Eigen::Vector3d intrinsics_;
 	Pose3 T_BO_;
+	WheelTimeShift shift_;
 	Whitening whiten_;
 };
 }  // namespace viwo
