@@ -22,11 +22,12 @@ struct Arguments
 
 void declare(CLI::App& command, Arguments& a)
 {
-	command.add_option("--kalibr", a.files.kalibr_camchain, "Kalibr's camchain-imucam.yaml (or camchain.yaml: the camera alone)");
+	command.add_option("--kalibr", a.files.kalibr_camchain, "Kalibr's camchain-imucam.yaml (or camchain.yaml: the camera alone)")
+	    ->type_name("FILE.yaml");
 	command.add_option("--camera", a.files.kalibr_camera, "Which camera of the camchain")->capture_default_str();
-	command.add_option("--imu", a.files.kalibr_imu, "Kalibr's imu.yaml: noise");
-	command.add_option("--ros", a.files.ros_camera_info, "YAML of ROS's camera_calibration: the camera alone");
-	command.add_option("--mrpt", a.files.mrpt_camera, "INI of MRPT's camera-calib: the camera alone");
+	command.add_option("--imu", a.files.kalibr_imu, "Kalibr's imu.yaml: noise")->type_name("FILE.yaml");
+	command.add_option("--ros", a.files.ros_camera_info, "YAML of ROS's camera_calibration: the camera alone")->type_name("FILE.yaml");
+	command.add_option("--mrpt", a.files.mrpt_camera, "INI of MRPT's camera-calib: the camera alone")->type_name("FILE.ini");
 	command.add_option("--odom", a.odom, "T_BO, the robot in the IMU's frame: x y z (m) yaw pitch roll (deg)")
 	    ->expected(6)
 	    ->check(app::finite());
@@ -34,7 +35,7 @@ void declare(CLI::App& command, Arguments& a)
 	    ->capture_default_str()
 	    ->check(app::notEmpty());
 	command.add_option("--imu-label", a.files.imu_label, "Label of the IMU in the rawlogs")->capture_default_str()->check(app::notEmpty());
-	command.add_option("-o,--output", a.output, "The rig.ini")->required()->check(app::notEmpty());
+	command.add_option("-o,--output", a.output, "The rig.ini")->type_name("FILE.ini")->required()->check(app::notEmpty());
 }
 
 void print(const std::string& path, const ImportedRig& imported)

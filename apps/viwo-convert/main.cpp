@@ -32,44 +32,48 @@ struct Arguments
 void declareTrajectory(CLI::App& cli, Arguments& a)
 {
 	CLI::App& c = *cli.add_subcommand("trajectory", "A trajectory in another format, frame or rate");
-	c.add_option("-i,--input", a.input, "Trajectory")->required();
-	c.add_option("-o,--output", a.output, "Trajectory; its stamps go to X_kitti_times.txt (kitti) or X_g2o_stamps.csv (g2o)")->required();
+	c.add_option("-i,--input", a.input, "Trajectory")->type_name("FILE.tum|.kitti|.csv|.mrpt|.g2o")->required();
+	c.add_option("-o,--output", a.output, "Trajectory; its stamps go to X_kitti_times.txt (kitti) or X_g2o_stamps.csv (g2o)")
+	    ->type_name("FILE.tum|.kitti|.csv|.mrpt|.g2o")
+	    ->required();
 	c.add_option("--from", a.from, "Format of the input; by default by its extension (.tum .kitti .csv .mrpt .g2o)")
 	    ->check(CLI::IsMember(kFormats));
 	c.add_option("--to", a.to, "Format of the output")->check(CLI::IsMember(kFormats));
 	c.add_option("--stamps", a.stamps,
 	             "Stamps of an input without any; by default those beside it: X_kitti_times.txt or X_times.txt (kitti), "
-	             "X_g2o_stamps.csv or X_stamps.csv (g2o)");
+	             "X_g2o_stamps.csv or X_stamps.csv (g2o)")
+	    ->type_name("FILE");
 	c.add_option("--from-frame", a.from_frame, "What the input is the pose of: O vehicle, B IMU, C camera")
 	    ->check(CLI::IsMember(kFrames))
 	    ->capture_default_str();
 	c.add_option("--to-frame", a.to_frame, "What the output is to be the pose of; needs --rawlog")->check(CLI::IsMember(kFrames));
-	c.add_option("--rawlog", a.rawlog, "Where the poses of IMU and camera on the vehicle are read");
+	c.add_option("--rawlog", a.rawlog, "Where the poses of IMU and camera on the vehicle are read")->type_name("FILE.rawlog");
 	c.add_option("--cam-label", a.labels.cam_label, "Sensor label of the camera")->capture_default_str();
 	c.add_option("--imu-label", a.labels.imu_label, "Sensor label of the IMU")->capture_default_str();
 	auto* rate = c.add_option("--rate", a.rate_hz, "Poses a second, interpolated, Hz")->check(app::between(0.001, 10000));
-	c.add_option("--like", a.like, "Poses at the stamps of this trajectory (TUM), interpolated")->excludes(rate);
+	c.add_option("--like", a.like, "Poses at the stamps of this trajectory (TUM), interpolated")->type_name("FILE.tum")->excludes(rate);
 	c.add_option("--max-gap", a.max_gap_s, "Longest gap to interpolate across, s")->check(app::positive())->capture_default_str();
 }
 
 void declareOthers(CLI::App& cli, Arguments& a)
 {
 	CLI::App& landmarks = *cli.add_subcommand("landmarks", "Landmarks of viwo-odometry as .ply or .pcd");
-	landmarks.add_option("-i,--input", a.input, "Landmarks (.ply)")->required();
-	landmarks.add_option("-o,--output", a.output, "Landmarks (.ply or .pcd)")->required();
+	landmarks.add_option("-i,--input", a.input, "Landmarks (.ply)")->type_name("FILE.ply")->required();
+	landmarks.add_option("-o,--output", a.output, "Landmarks (.ply or .pcd)")->type_name("FILE.ply|.pcd")->required();
 
 	CLI::App& rawlog = *cli.add_subcommand("rawlog", "A rawlog with a trajectory put in as CObservationRobotPose");
-	rawlog.add_option("-i,--input", a.input, "Rawlog")->required();
-	rawlog.add_option("-t,--trajectory", a.trajectory, "Trajectory of the vehicle (TUM)")->required();
-	rawlog.add_option("-o,--output", a.output, "Rawlog")->required();
+	rawlog.add_option("-i,--input", a.input, "Rawlog")->type_name("FILE.rawlog")->required();
+	rawlog.add_option("-t,--trajectory", a.trajectory, "Trajectory of the vehicle (TUM)")->type_name("FILE.tum")->required();
+	rawlog.add_option("-o,--output", a.output, "Rawlog")->type_name("FILE.rawlog")->required();
 	rawlog.add_option("--label", a.pose_label, "Sensor label of the poses")->check(app::notEmpty())->capture_default_str();
 	rawlog.add_flag("--allow-truncated", a.allow_truncated, "Take a truncated rawlog as far as it goes");
 
 	CLI::App& map = *cli.add_subcommand("simplemap", "Key frames with their observations as MRPT's CSimpleMap");
-	map.add_option("-i,--input", a.input, "Rawlog")->required();
-	map.add_option("-t,--trajectory", a.trajectory, "Trajectory of the vehicle (TUM)")->required();
-	map.add_option("-o,--output", a.output, "CSimpleMap (.simplemap)")->required();
-	auto* key_frames = map.add_option("--keyframes", a.key_frames, "keyframes.csv of viwo-odometry; without it, key frames by the way");
+	map.add_option("-i,--input", a.input, "Rawlog")->type_name("FILE.rawlog")->required();
+	map.add_option("-t,--trajectory", a.trajectory, "Trajectory of the vehicle (TUM)")->type_name("FILE.tum")->required();
+	map.add_option("-o,--output", a.output, "CSimpleMap (.simplemap)")->type_name("FILE.simplemap")->required();
+	auto* key_frames = map.add_option("--keyframes", a.key_frames, "keyframes.csv of viwo-odometry; without it, key frames by the way")
+	                       ->type_name("FILE.csv");
 	map.add_option("--distance", a.distance_m, "A key frame after this way, m")
 	    ->excludes(key_frames)
 	    ->check(app::positive())

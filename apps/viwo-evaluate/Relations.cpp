@@ -25,17 +25,20 @@ CLI::App* declareRelations(CLI::App& cli, RelationArguments& a)
 	CLI::App* relations =
 	    cli.add_subcommand("relations", "Relation error (Kuemmerle et al.) of a trajectory against measured relative poses");
 	relations->add_option("-r,--relations", a.relations, "Lines t1 t2 x y z roll pitch yaw: the pose at t2 seen from that at t1")
+	    ->type_name("FILE")
 	    ->required();
-	relations->add_option("-e,--estimate", a.trajectory, "Estimated trajectory (TUM)")->required();
-	relations->add_option("--stamps", a.stamps,
-	                      "X_stamps.csv of the import: the relations have original stamps, the trajectory those of the rawlog");
+	relations->add_option("-e,--estimate", a.trajectory, "Estimated trajectory (TUM)")->type_name("FILE.tum")->required();
+	relations
+	    ->add_option("--stamps", a.stamps,
+	                 "X_stamps.csv of the import: the relations have original stamps, the trajectory those of the rawlog")
+	    ->type_name("FILE.csv");
 	relations
 	    ->add_option(
 	        "--sensor", a.sensor,
 	        "Evaluate a second frame beside O: x (m), y (m), yaw (deg) of a sensor on the robot, between whose poses the relations are")
 	    ->expected(3)
 	    ->check(app::finite());
-	relations->add_option("--json", a.json, "Write the figures to this file too");
+	relations->add_option("--json", a.json, "Write the figures to this file too")->type_name("FILE.json");
 	return relations;
 }
 

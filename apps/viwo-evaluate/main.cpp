@@ -37,18 +37,22 @@ struct Arguments
 
 void declare(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("-r,--reference", a.reference, "Reference trajectory (TUM)")->required();
-	cli.add_option("-e,--estimate", a.estimates, "Estimated trajectory (TUM); may be given several times")->required();
+	cli.add_option("-r,--reference", a.reference, "Reference trajectory (TUM)")->type_name("FILE.tum")->required();
+	cli.add_option("-e,--estimate", a.estimates, "Estimated trajectory (TUM); may be given several times")
+	    ->type_name("FILE.tum")
+	    ->required();
 	cli.add_option("--align", a.alignment, "What is taken out before comparing: se3, yaw (z rotation and shift), none or sim3 (with scale)")
 	    ->check(CLI::IsMember({"se3", "yaw", "none", "sim3"}))
 	    ->capture_default_str();
 	cli.add_flag("--allow-missing", a.allow_missing,
 	             "An estimate whose file is not there or empty is a row without figures (and over every limit)");
-	cli.add_option("--json", a.json, "Write the figures to this file too");
-	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file");
-	cli.add_option("--html", a.html, "Write figures and pictures as one page to this file: no script, no network, light and dark");
+	cli.add_option("--json", a.json, "Write the figures to this file too")->type_name("FILE.json");
+	cli.add_option("--svg", a.svg, "Draw reference and aligned estimates from above into this file")->type_name("FILE.svg");
+	cli.add_option("--html", a.html, "Write figures and pictures as one page to this file: no script, no network, light and dark")
+	    ->type_name("FILE.html");
 	cli.add_flag("--nees", a.nees, "Compare errors with the covariances in trajectory_covariance.csv beside each estimate");
-	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)");
+	cli.add_option("--covariance", a.covariances, "Covariance file for each estimate, in the same order (implies --nees)")
+	    ->type_name("FILE.csv");
 	cli.add_option("--max-ate", a.max_ate_m, "Exit with 1 when the x-y-z ATE of an estimate is above, m")->check(app::nonNegative());
 	cli.add_option("--min-coverage", a.min_coverage, "Exit with 1 when the coverage of an estimate is below, 0 to 1")
 	    ->check(app::between(0, 1));

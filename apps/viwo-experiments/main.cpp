@@ -29,9 +29,9 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_flag("--ablations", a.ablations, "Also switch the parts of the estimator off one by one (five more runs of each drive)");
 	cli.add_option("--error-budget", a.error_budget,
 	               "Also tell what each source of error costs: sequences, e.g. seq01,seq05 (26 runs of each)");
-	cli.add_option("-j,--jobs", a.jobs, "Programs at a time")->check(CLI::Range(1, 256))->capture_default_str();
-	cli.add_option("-o,--output", a.folders.output, "Folder for tables, report and runs")->required();
-	cli.add_option("--cache", a.folders.cache, "Folder for simulated logs (0.2 GB a drive); default: <output>/cache");
+	cli.add_option("-j,--jobs", a.jobs, "Programs at a time")->check(CLI::Range(1, 256))->default_str("number of processors");
+	cli.add_option("-o,--output", a.folders.output, "Folder for tables, report and runs")->type_name("DIR")->required();
+	cli.add_option("--cache", a.folders.cache, "Folder for simulated logs (0.2 GB a drive); default: <output>/cache")->type_name("DIR");
 	cli.add_option("--programs", a.folders.programs, "Folder of viwo-sim, viwo-odometry and viwo-groundtruth")
 	    ->check(CLI::ExistingDirectory);
 	cli.footer(

@@ -11,9 +11,10 @@ void declare(CLI::App& cli, gt::GroundTruthRunOptions& a, bool& no_odometry_edge
 {
 	cli.add_option("-i,--input", a.rawlogs,
 	               "Rawlog with scans, and odometry if there is any; several are one session, in the order of time")
+	    ->type_name("FILE.rawlog")
 	    ->required();
-	cli.add_option("-o,--output", a.output_dir, "Folder for what is computed")->required();
-	cli.add_option("-c,--config", a.config_path, "Configuration (INI); without it the defaults");
+	cli.add_option("-o,--output", a.output_dir, "Folder for what is computed")->type_name("DIR")->required();
+	cli.add_option("-c,--config", a.config_path, "Configuration (INI); without it the defaults")->type_name("FILE.ini");
 	cli.add_option("--scan-label", a.scan_label, "Sensor label of the scans; not needed where there is only one");
 	cli.add_option("--odometry-label", a.odometry_label, "Sensor label of the wheel odometry; without it ODOMETRY, if there is any")
 	    ->check(app::notEmpty());

@@ -14,21 +14,23 @@ namespace
 void addOutput(CLI::App& command, ImportJob& job)
 {
 	command.add_option("-o,--output", job.rawlog_path, "X.rawlog; images go to X_Images/, the ground truth to X_ground_truth.tum")
+	    ->type_name("FILE.rawlog")
 	    ->required();
 }
 
 void addFiles(CLI::App& command, ImportJob& job)
 {
-	command.add_option("recording", job.folder, "The recording: its folder, or the log's file")->required();
+	command.add_option("recording", job.folder, "The recording: its folder, or the log's file")->type_name("FILE")->required();
 	addOutput(command, job);
 }
 
 CLI::App* addRosBag(CLI::App& cli, ImportJob& job, RosBagOptions& options)
 {
 	CLI::App* command = cli.add_subcommand("rosbag", "ROS 1 bags (plain, bz2, lz4), several as one recording");
-	command->add_option("bags", options.bags, "A.bag [B.bag ...]")->required();
+	command->add_option("bags", options.bags, "A.bag [B.bag ...]")->type_name("FILE.bag")->required();
 	addOutput(*command, job);
-	CLI::Option* map = command->add_option("--map", options.map_path, "Which topic becomes which label, an INI as --auto prints it");
+	CLI::Option* map = command->add_option("--map", options.map_path, "Which topic becomes which label, an INI as --auto prints it")
+	                       ->type_name("FILE.ini");
 	command->add_flag("--auto", "Propose that from the topics, print it and use it (the default)")->excludes(map);
 	command->add_flag("--record-time", options.record_time, "Stamps are the recorder's, not those of the headers");
 	return command;

@@ -10,6 +10,7 @@ int main(int argc, char** argv)
 	CLI::App cli{"What is inside of a recording, and what it suffices for", "viwo-info"};
 	std::vector<std::string> paths;
 	cli.add_option("recordings", paths, "Rawlog, ROS 1 bag, CARMEN log, EuRoC or KITTI folder; several are described one by one")
+	    ->type_name("FILE")
 	    ->required();
 	cli.footer(
 	    "Examples:\n"

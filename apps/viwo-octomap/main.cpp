@@ -24,16 +24,21 @@ struct Arguments
 
 void declareOutputs(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("-i,--input", a.run.rawlog, "Rawlog")->required()->check(app::notEmpty());
-	cli.add_option("-t,--trajectory", a.run.trajectory, "Trajectory of the vehicle (TUM)")->required()->check(app::notEmpty());
+	cli.add_option("-i,--input", a.run.rawlog, "Rawlog")->type_name("FILE.rawlog")->required()->check(app::notEmpty());
+	cli.add_option("-t,--trajectory", a.run.trajectory, "Trajectory of the vehicle (TUM)")
+	    ->type_name("FILE.tum")
+	    ->required()
+	    ->check(app::notEmpty());
 	cli.add_option("-o,--output", a.run.output, "OctoMap: .bt (free, occupied, unknown) or .ot (log-odds, colours)")
+	    ->type_name("FILE.bt|.ot")
 	    ->required()
 	    ->check(app::notEmpty());
 	cli.add_flag("--both", a.run.both, "Write both .bt and .ot");
-	cli.add_option("--scan-graph", a.run.scan_graph, "Write the scans as text for octomap's log2graph, too (.log)");
-	cli.add_option("--to-ply", a.run.ply, "Write the centres of the occupied voxels, too");
+	cli.add_option("--scan-graph", a.run.scan_graph, "Write the scans as text for octomap's log2graph, too (.log)")->type_name("FILE.log");
+	cli.add_option("--to-ply", a.run.ply, "Write the centres of the occupied voxels, too")->type_name("FILE.ply");
 	CLI::Option* grid =
-	    cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)");
+	    cli.add_option("--to-grid", a.run.grid, "Write the map seen from above for ROS's map_server, too (.yaml, with .pgm beside it)")
+	        ->type_name("FILE.yaml");
 	cli.add_option("--grid-min-z", a.run.grid_slice.min_z_m, "From this height on, m (0.05; of a flat map its lowest)")
 	    ->check(app::finite());
 	cli.add_option("--grid-max-z", a.run.grid_slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")
@@ -51,14 +56,15 @@ void declareSources(CLI::App& cli, Arguments& a)
 	    ->delimiter(',')
 	    ->check(CLI::IsMember({"scans", "depth", "clouds", "landmarks"}));
 	CLI::Option* landmarks =
-	    cli.add_option("--landmarks", a.run.landmarks_dir, "Output folder of viwo-odometry: its landmarks go in as well");
+	    cli.add_option("--landmarks", a.run.landmarks_dir, "Output folder of viwo-odometry: its landmarks go in as well")->type_name("DIR");
 	cli.add_option("--max-landmark-deviation", a.run.max_landmark_deviation,
 	               "Landmarks with a larger relative deviation of depth are left out")
 	    ->needs(landmarks)
 	    ->check(app::positive())
 	    ->capture_default_str();
 	CLI::Option* flags =
-	    cli.add_option("--flags", a.run.flags, "trajectory_covariance.csv: observations whose pose is flagged as bad are left out");
+	    cli.add_option("--flags", a.run.flags, "trajectory_covariance.csv: observations whose pose is flagged as bad are left out")
+	        ->type_name("FILE.csv");
 	cli.add_option("--bad-flags", a.run.bad_flags, "Flags that count as bad")
 	    ->delimiter(',')
 	    ->needs(flags)
@@ -122,7 +128,7 @@ void declareModel(CLI::App& cli, Arguments& a)
 	    ->capture_default_str();
 	cli.add_option("--threads", a.run.threads, "Threads; the result does not depend on them")
 	    ->check(CLI::Range(1, 256))
-	    ->capture_default_str();
+	    ->default_str("number of processors, at most 16");
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-octomap -i run.rawlog -t truth/trajectory.tum -o run.bt --flags truth/trajectory_covariance.csv\n"

@@ -22,12 +22,16 @@ void declare(CLI::App& cli, Arguments& a)
 {
 	cli.add_option("-i,--input", a.run.rawlogs,
 	               "Rawlog with images, IMU and wheel odometry; several, in the order of their time, are one run; - is standard input")
+	    ->type_name("FILE.rawlog")
 	    ->required()
 	    ->check(app::notEmpty());
 	cli.add_option("-c,--config", a.run.config_path, "Configuration (INI); without it the defaults for a TurtleBot-class robot")
+	    ->type_name("FILE.ini")
 	    ->check(app::notEmpty());
-	cli.add_option("--rig", a.rig, "Calibration (rig.ini of viwo-calibrate) that counts instead of the rawlog's")->check(app::notEmpty());
-	cli.add_option("-o,--output", a.run.output_dir, "Folder for what is computed")->required()->check(app::notEmpty());
+	cli.add_option("--rig", a.rig, "Calibration (rig.ini of viwo-calibrate) that counts instead of the rawlog's")
+	    ->type_name("FILE.ini")
+	    ->check(app::notEmpty());
+	cli.add_option("-o,--output", a.run.output_dir, "Folder for what is computed")->type_name("DIR")->required()->check(app::notEmpty());
 	cli.add_option("--mode", a.mode, "What is fused: wheel, wio (wheels + IMU), vio (camera + IMU), viwo (all)")
 	    ->check(CLI::IsMember(modeNames()))
 	    ->capture_default_str();

@@ -21,17 +21,18 @@ struct Arguments
 
 void declare(CLI::App& cli, Arguments& a)
 {
-	cli.add_option("-o,--output", a.output, "Picture: .png or .svg")->required()->check(app::notEmpty());
-	auto* map = cli.add_option("--map", a.map, "Grid map of ROS's map_server (.yaml)");
-	CLI::Option* octomap =
-	    cli.add_option("--octomap", a.octomap, "OctoMap (.bt or .ot), seen from above between two heights")->excludes(map);
+	cli.add_option("-o,--output", a.output, "Picture: .png or .svg")->type_name("FILE.png|.svg")->required()->check(app::notEmpty());
+	auto* map = cli.add_option("--map", a.map, "Grid map of ROS's map_server (.yaml)")->type_name("FILE.yaml");
+	CLI::Option* octomap = cli.add_option("--octomap", a.octomap, "OctoMap (.bt or .ot), seen from above between two heights")
+	                           ->type_name("FILE.bt|.ot")
+	                           ->excludes(map);
 	cli.add_option("--min-z", a.slice.min_z_m,
 	               "Of the OctoMap: from this height on, m (0.05; of a flat map its lowest); --min-z = --max-z is a slice")
 	    ->needs(octomap)
 	    ->check(app::finite());
 	cli.add_option("--max-z", a.slice.max_z_m, "Up to this height, m (2; of a flat map its highest)")->needs(octomap)->check(app::finite());
-	cli.add_option("--landmarks", a.landmarks, "Landmarks of viwo-odometry (.ply)");
-	cli.add_option("-t,--trajectory", a.trajectories, "Trajectory (TUM) to draw on top; may be given several times");
+	cli.add_option("--landmarks", a.landmarks, "Landmarks of viwo-odometry (.ply)")->type_name("FILE.ply");
+	cli.add_option("-t,--trajectory", a.trajectories, "Trajectory (TUM) to draw on top; may be given several times")->type_name("FILE.tum");
 	cli.add_option("--title", a.title, "Line above the picture");
 	cli.footer(
 	    "All are drawn in the same frame, as they are.\n"

@@ -25,21 +25,27 @@ struct Arguments
 
 void declare(CLI::App& cli, Arguments& a)
 {
-	CLI::Option* sequence = cli.add_option(
-	    "--sequence", a.sequence, "World, route and rig together: an INI file, or the name of one in share/viwo/sequences, e.g. seq01");
+	CLI::Option* sequence =
+	    cli.add_option("--sequence", a.sequence,
+	                   "World, route and rig together: an INI file, or the name of one in share/viwo/sequences, e.g. seq01")
+	        ->type_name("FILE.ini");
 	cli.add_option("-w,--world", a.world, "World: an INI file, or the name of one in share/viwo/worlds")
+	    ->type_name("FILE.ini")
 	    ->capture_default_str()
 	    ->excludes(sequence);
 	cli.add_option("-r,--route", a.route, "Route: an INI file, or the name of one in share/viwo/routes")
+	    ->type_name("FILE.ini")
 	    ->capture_default_str()
 	    ->excludes(sequence);
 	cli.add_option("-g,--rig", a.rig, "Robot and sensors: an INI file, or the name of one in share/viwo/rigs")
+	    ->type_name("FILE.ini")
 	    ->capture_default_str()
 	    ->excludes(sequence);
 	cli.add_option("-s,--seed", a.seed, "Seed of all random draws: same inputs and seed, same files")
 	    ->check(app::seed())
 	    ->capture_default_str();
 	cli.add_option("-o,--output", a.output, "X.rawlog; X_Images/, X_ground_truth.tum and X_simulation.ini are written beside it")
+	    ->type_name("FILE.rawlog")
 	    ->required();
 	cli.add_flag("--no-images", a.no_images, "Without the camera (seconds instead of minutes)");
 	cli.add_option("--images-from", a.images_from, "Take over the images of a run that differs in wheels, IMU or LiDAR alone: its X_Images")
@@ -47,7 +53,7 @@ void declare(CLI::App& cli, Arguments& a)
 	cli.add_option("--set", a.overrides, "section.key=value: overrule an option of rig or route; may be given several times")->take_all();
 	cli.add_option("-j,--jobs", a.jobs, "Threads that render; the files do not depend on it")
 	    ->check(CLI::Range(1, 256))
-	    ->capture_default_str();
+	    ->default_str("number of processors");
 	cli.footer(
 	    "Examples:\n"
 	    "  viwo-sim -o run.rawlog\n"

@@ -1,17 +1,10 @@
+#include "Programs.h"
 #include "OdometryProgram.h"
 
 namespace viwo::testing
 {
 namespace
 {
-std::vector<std::string> allPrograms()
-{
-	std::vector<std::string> names;
-	for (const auto& entry : std::filesystem::directory_iterator(VIWO_SOURCE_DIR "/apps"))
-		if (std::filesystem::exists(entry.path() / "main.cpp")) names.push_back(entry.path().filename().string());
-	return names;
-}
-
 TEST(Programs, HelpShowsExamplesAndExitStatus)
 {
 	ASSERT_GE(allPrograms().size(), 4u);

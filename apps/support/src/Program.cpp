@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <viwo/app/Documents.h>
 #include <viwo/app/Program.h>
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -47,6 +50,22 @@ void reserveStandardStreams()
 {
 	for (int fd = 0; fd <= 2; ++fd)
 		if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) std::abort();
+}
+
+/** All of viwo, in the order of apps/CMakeLists.txt. */
+std::vector<std::string> programs()
+{
+	std::istringstream names(VIWO_PROGRAMS);
+	return {std::istream_iterator<std::string>(names), {}};
+}
+
+/** What man pages and completion are made with, by the build; --help does not show it. */
+void addDocuments(CLI::App& cli)
+{
+	const auto print = [&cli](const char* name, const std::function<std::string()>& text)
+	{ cli.add_flag_callback(name, [text] { throw CLI::CallForVersion(text(), 0); })->group(""); };
+	print("--print-man", [&cli] { return manPage(cli, programs()); });
+	print("--print-completion", [&cli] { return completionTable(cli); });
 }
 
 /** Messages of other libraries may have several lines; a user gets one. */
@@ -195,11 +214,12 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 	g_quiet = false;
 	cli.set_version_flag("--version", program + " (viwo) " + version());
 	cli.add_flag("--quiet", g_quiet, "Print results and errors only: no progress, no remarks");
+	addDocuments(cli);
 	try
 	{
 		cli.parse(argc, argv);
 	}
-	catch (const CLI::Success& e)  // --help, --version
+	catch (const CLI::Success& e)  // --help, --version, --print-man
 	{
 		return cli.exit(e);
 	}
