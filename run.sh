@@ -1,5 +1,5 @@
 #!/bin/bash
-# The project's verbs: ./run.sh demo | test | build | accuracy | format   (./run.sh without a word explains them)
+# The project's verbs: ./run.sh demo | test | build | accuracy | package | doc | prepare | format   (./run.sh without a word explains them)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -8,6 +8,7 @@ jobs=${VIWO_JOBS:-$(nproc)}
 targets=() # empty: all
 packages=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libopencv-dev nlohmann-json3-dev libcli11-dev libyaml-cpp-dev libgtest-dev
 	libmrpt-obs-dev libmrpt-poses-dev libmrpt-config-dev libmrpt-io-dev libmrpt-maps-dev libmrpt-system-dev mrpt-apps mrpt-common liboctomap-dev octomap-tools zlib1g-dev libbz2-dev
+	file man-db doxygen
 	librosbag-storage-dev libroscpp-core-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev)
 
 usage() {
@@ -17,6 +18,9 @@ usage: ./run.sh VERB
   test      build and run all tests
   build     build the programs into build/bin
   accuracy  measure the accuracy table (long); writes build/accuracy/
+  package   make Debian packages (viwo, libviwo0, libviwo-dev) in build/packages/
+  doc       make the reference of the libraries (doxygen) in build/doc/html
+  prepare   install what building needs, and nothing else
   format    clang-format on all sources
 Each installs what is missing from Debian first. VIWO_JOBS sets the number of compile jobs, VIWO_BUILD_DIR the build folder.
 TEXT
@@ -100,6 +104,31 @@ accuracy() {
 	"$build_dir/bin/viwo_accuracy" "$@"
 }
 
+package() {
+	install_missing "${packages[@]}"
+	# Debian's flags, but for debug information, which would be stripped; and programs that know no path of this folder.
+	export DEB_BUILD_MAINT_OPTIONS=hardening=+bindnow
+	local flags
+	flags=$(dpkg-buildflags --get CXXFLAGS)
+	CXXFLAGS="$(dpkg-buildflags --get CPPFLAGS) ${flags#-g }" LDFLAGS=$(dpkg-buildflags --get LDFLAGS) configure "$build_dir/package" \
+		-DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DVIWO_PACKAGE=ON -DVIWO_BUILD_TESTS=OFF "$@"
+	cmake --build "$build_dir/package" -j "$jobs"
+	rm -rf "$build_dir/packages"
+	local out
+	out=$(realpath "$build_dir")/packages
+	(cd "$build_dir/package" && cpack -B "$out" >/dev/null)
+	rm -rf "$out/_CPack_Packages"
+	if command -v lintian >/dev/null; then lintian --allow-root --fail-on error "$out"/*.deb; fi
+	ls "$out"/*.deb
+}
+
+reference() {
+	install_missing "${packages[@]}"
+	configure "$build_dir" -DCMAKE_BUILD_TYPE=Release
+	cmake --build "$build_dir" --target doc
+	echo "$build_dir/doc/html/index.html"
+}
+
 format() {
 	install_missing clang-format
 	find apps libs tests \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format -i
@@ -112,6 +141,9 @@ demo) demo ;;
 test) run_tests "$@" ;;
 build) build "$@" ;;
 accuracy) accuracy "$@" ;;
+package) package "$@" ;;
+doc) reference ;;
+prepare) install_missing "${packages[@]}" ;;
 format) format ;;
 -h | --help | help) usage ;;
 *)

@@ -1,0 +1,11 @@
+# Run by cpack on what it packed. Where there are libraries it adds scripts that call ldconfig; Debian wants a trigger instead.
+foreach(package IN LISTS CPACK_PACKAGE_FILES)
+	set(folder ${package}.unpacked)
+	execute_process(COMMAND dpkg-deb -R ${package} ${folder} COMMAND_ERROR_IS_FATAL ANY)
+	if(EXISTS ${folder}/DEBIAN/postinst)
+		file(REMOVE ${folder}/DEBIAN/postinst ${folder}/DEBIAN/postrm)
+		file(WRITE ${folder}/DEBIAN/triggers "activate-noawait ldconfig\n")
+	endif()
+	execute_process(COMMAND dpkg-deb --root-owner-group -Z${CPACK_VIWO_COMPRESSION} -b ${folder} ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+	file(REMOVE_RECURSE ${folder})
+endforeach()

@@ -1,0 +1,91 @@
+# Debian packages of this build: viwo (programs), libviwo0 (libraries), libviwo-dev (headers). "./run.sh package", or cpack in the build folder.
+set(VIWO_PACKAGE_MAINTAINER "The viwo authors <viwo@viwo.invalid>" CACHE STRING "Who answers for the packages: Name <address>")
+mark_as_advanced(VIWO_PACKAGE_MAINTAINER)
+set(package_version ${PROJECT_VERSION}-1)
+set(package_libraries libviwo${PROJECT_VERSION_MAJOR})
+set(package_folder ${CMAKE_CURRENT_LIST_DIR})
+
+# One date in all files of the packages: same source, same packages.
+set(package_epoch "$ENV{SOURCE_DATE_EPOCH}")
+if(NOT package_epoch)
+	execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%ct OUTPUT_VARIABLE package_epoch OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+if(NOT package_epoch)
+	file(TIMESTAMP ${PROJECT_SOURCE_DIR}/CHANGELOG.md package_epoch "%s" UTC)
+endif()
+set(epoch_of_caller "$ENV{SOURCE_DATE_EPOCH}")
+set(ENV{SOURCE_DATE_EPOCH} ${package_epoch})
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+set(ENV{SOURCE_DATE_EPOCH} ${epoch_of_caller})
+
+# changelog.gz, changelog.Debian.gz and copyright, which Debian wants in each package.
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+string(REGEX MATCH "Copyright \\(c\\) ([^\n]*)" ignored "${licence}")
+set(package_copyright "${CMAKE_MATCH_1}")
+string(REGEX REPLACE "^.*\nAll rights reserved.\n\n" "" licence "${licence}")
+string(STRIP "${licence}" licence)
+string(REPLACE "\n\n" "\n.\n" licence "${licence}")
+string(REPLACE "\n" "\n " package_licence " ${licence}")
+configure_file(${package_folder}/copyright.in ${PROJECT_BINARY_DIR}/packaging/copyright @ONLY)
+configure_file(${package_folder}/changelog.in ${PROJECT_BINARY_DIR}/packaging/changelog.Debian @ONLY)
+configure_file(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_BINARY_DIR}/packaging/changelog COPYONLY)
+find_program(GZIP_PROGRAM gzip REQUIRED)
+foreach(name changelog changelog.Debian)
+	execute_process(COMMAND ${GZIP_PROGRAM} -9nkf ${PROJECT_BINARY_DIR}/packaging/${name} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+
+# viwo_package(<component> <package> <section> <summary> <description>): the description's lines begin with a blank.
+function(viwo_package component package section summary description)
+	install(FILES ${PROJECT_BINARY_DIR}/packaging/copyright ${PROJECT_BINARY_DIR}/packaging/changelog.gz ${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz
+		DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
+	if(EXISTS ${package_folder}/overrides/${component})
+		install(FILES ${package_folder}/overrides/${component} DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME ${package} COMPONENT ${component}
+			EXCLUDE_FROM_ALL)
+	endif()
+	string(TOUPPER ${component} prefix)
+	set(CPACK_DEBIAN_${prefix}_PACKAGE_NAME ${package} PARENT_SCOPE)
+	set(CPACK_DEBIAN_${prefix}_FILE_NAME DEB-DEFAULT PARENT_SCOPE)
+	set(CPACK_DEBIAN_${prefix}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+	set(CPACK_DEBIAN_${prefix}_DESCRIPTION "${summary}\n${description}" PARENT_SCOPE)
+	set(CPACK_COMPONENT_${prefix}_DESCRIPTION "${summary}\n${description}" PARENT_SCOPE)
+endfunction()
+
+set(about "viwo fuses a camera, an IMU and wheel encoders of a wheeled robot into a metric\ntrajectory with covariance, in one sliding window. Recordings are MRPT's\nrawlogs.")
+viwo_package(programs viwo science "visual-inertial-wheel odometry for wheeled robots"
+	"${about}\n\nThe programs: odometry, ground truth and maps of LiDAR scans, OctoMaps,\nevaluation, simulation, import of ROS 1 bags, EuRoC, KITTI and CARMEN.")
+viwo_package(libraries ${package_libraries} libs "visual-inertial-wheel odometry - shared libraries" "${about}\n\nThe libraries that the programs, and others, link.")
+viwo_package(development libviwo-dev libdevel "visual-inertial-wheel odometry - headers"
+	"${about}\n\nHeaders and the CMake package: find_package(viwo), viwo::odometry.")
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME viwo)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "${VIWO_PACKAGE_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_COMPONENTS_ALL programs libraries development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+# It is packed once more at the end.
+set(CPACK_DEBIAN_COMPRESSION_TYPE none)
+set(CPACK_VIWO_COMPRESSION xz)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+# Before version 1 an update may change what programs were built with.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "${package_libraries} (= ${package_version})")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "mrpt-apps")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "octovis")
+# What find_package(viwo) looks for.
+string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${package_libraries} (= ${package_version})" libeigen3-dev libmrpt-config-dev libmrpt-io-dev libmrpt-maps-dev
+	libmrpt-obs-dev libmrpt-poses-dev libmrpt-system-dev libopencv-dev nlohmann-json3-dev liboctomap-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_PRE_BUILD_SCRIPTS ${package_folder}/StagedFiles.cmake)
+set(CPACK_POST_BUILD_SCRIPTS ${package_folder}/FinishPackages.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${package_folder}/CPackOptions.cmake)
+set(CPACK_VIWO_EPOCH ${package_epoch})
+include(CPack)

@@ -1,0 +1,11 @@
+# Run by cpack on what is installed, before it is packed: Debian's libraries are found without a path in each file, and all files have one date.
+file(GLOB_RECURSE staged LIST_DIRECTORIES false ${CPACK_TEMPORARY_DIRECTORY}/*)
+foreach(path IN LISTS staged)
+	if(NOT IS_SYMLINK ${path})
+		file(READ ${path} magic LIMIT 4 HEX)
+		if(magic STREQUAL "7f454c46")
+			file(RPATH_REMOVE FILE ${path})
+		endif()
+	endif()
+endforeach()
+execute_process(COMMAND find ${CPACK_TEMPORARY_DIRECTORY} -exec touch --no-dereference --date=@${CPACK_VIWO_EPOCH} {} + COMMAND_ERROR_IS_FATAL ANY)
