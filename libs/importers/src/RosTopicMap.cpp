@@ -3,7 +3,7 @@
 #include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <viwo/core/Error.h>
-#include <viwo/core/Scalars.h>
+#include <viwo/core/MountingPose.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -64,10 +64,8 @@ std::string namesOfTopics(const std::vector<RosTopic>& topics)
 std::optional<Pose3> TopicMapping::sensorPose() const
 {
 	if (position_m.empty()) return std::nullopt;
-	const auto turn = [this](size_t i, const Eigen::Vector3d& axis) { return Eigen::AngleAxisd(yaw_pitch_roll_deg[i] * kDegree, axis); };
-	return Pose3(
-	    Eigen::Quaterniond(turn(0, Eigen::Vector3d::UnitZ()) * turn(1, Eigen::Vector3d::UnitY()) * turn(2, Eigen::Vector3d::UnitX())),
-	    {position_m[0], position_m[1], position_m[2]});
+	const std::vector<double>&p = position_m, &a = yaw_pitch_roll_deg;
+	return mountingPose({p[0], p[1], p[2]}, {a[0], a[1], a[2]});
 }
 
 bool isImageType(const std::string& type)

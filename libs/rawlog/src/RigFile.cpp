@@ -1,6 +1,7 @@
 #include <mrpt/config/CConfigFile.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/MountingPose.h>
 #include <viwo/core/MrptPose.h>
 #include <viwo/rawlog/RawlogWriter.h>
 #include <viwo/rawlog/RigFile.h>
@@ -16,8 +17,6 @@ namespace
 constexpr const char* kCamera = "CAMERA_PARAMS";  // MRPT's name for it
 constexpr const char* kImu = "IMU";
 constexpr const char* kWheels = "ODOMETRY";
-
-constexpr double kDegrees = 180 / M_PI;
 
 /** To a billionth, so that 90 degrees stay 90 degrees. */
 double rounded(double value)
@@ -44,7 +43,7 @@ std::set<std::string> sectionNames(const std::string& path)
 
 Pose3 MountedSensor::pose() const
 {
-	return fromMrpt({x_m, y_m, z_m, yaw_deg / kDegrees, pitch_deg / kDegrees, roll_deg / kDegrees});
+	return mountingPose({x_m, y_m, z_m}, {yaw_deg, pitch_deg, roll_deg});
 }
 
 void MountedSensor::setPose(const Pose3& T_OS)
@@ -53,9 +52,9 @@ void MountedSensor::setPose(const Pose3& T_OS)
 	x_m = rounded(pose.x());
 	y_m = rounded(pose.y());
 	z_m = rounded(pose.z());
-	yaw_deg = rounded(pose.yaw() * kDegrees);
-	pitch_deg = rounded(pose.pitch() * kDegrees);
-	roll_deg = rounded(pose.roll() * kDegrees);
+	yaw_deg = rounded(pose.yaw() / kDegree);
+	pitch_deg = rounded(pose.pitch() / kDegree);
+	roll_deg = rounded(pose.roll() / kDegree);
 }
 
 CameraModel RigCamera::model() const
