@@ -1,5 +1,6 @@
 #include <viwo/app/Program.h>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +21,14 @@ int64_t now_ms()
 {
 	using namespace std::chrono;
 	return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+/** A line that is longer than the terminal is wide would stay there at each update. */
+std::string cutToTerminal(std::string line)
+{
+	winsize size = {};
+	if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && line.size() >= size.ws_col) line.resize(size.ws_col - 1u);
+	return line;
 }
 }  // namespace
 
@@ -62,7 +71,7 @@ void ProgressBar::update(double fraction, const std::string& note)
 	const double elapsed_s = static_cast<double>(now - start_ms_) * 1e-3;
 	const bool known = now - start_ms_ >= kFirstEstimate_ms && fraction > 1e-3;
 	const double left_s = known ? elapsed_s * (1 - std::min(fraction, 1.0)) / fraction : -1;
-	std::fprintf(stderr, "\r%s\033[K", render(fraction, left_s, note).c_str());
+	std::fprintf(stderr, "\r%s\033[K", cutToTerminal(render(fraction, left_s, note)).c_str());
 	std::fflush(stderr);
 	visible_ = true;
 }

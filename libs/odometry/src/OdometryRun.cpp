@@ -11,12 +11,12 @@
 #include <exception>
 #include <map>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "GapLog.h"
 #include "InputCheck.h"
 #include "MinuteLog.h"
+#include "ReplayClock.h"
 #include "RunOutputs.h"
 #include "RunSummary.h"
 
@@ -102,7 +102,7 @@ class Run
 			const double t_s = secondsBetween(*first_ns_, t_ns);
 			if (t_s < options_.from_s) continue;
 			if (t_s > options_.to_s) break;
-			keepPace(t_s);
+			if (const auto remark = clock_.waitFor(t_s - options_.from_s, [this] { return interrupted(); })) tell(t_s, *remark);
 			if (const auto gap = gaps_.add(observation->sensorLabel, t_ns)) tell(*gap);
 			last_ns_ = t_ns;
 			odometry_.processObservation(observation);
@@ -113,18 +113,6 @@ class Run
 	}
 
 	bool interrupted() const { return hooks_.interrupted && hooks_.interrupted(); }
-
-	/** Real-time replay: waits for the log's clock; when behind it, says so and goes on without dropping anything. */
-	void keepPace(double t_s)
-	{
-		if (options_.replay_speed <= 0) return;
-		constexpr double kLongestSleep_s = 0.1;  // a gap of the log may be hours
-		const double due_s = (t_s - options_.from_s) / options_.replay_speed;
-		const auto now_s = [this] { return std::chrono::duration<double>(Clock::now() - begin_).count(); };
-		lag_s_ = std::max(0.0, now_s() - due_s);
-		for (double left_s = due_s - now_s(); left_s > 0 && !interrupted(); left_s = due_s - now_s())
-			std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kLongestSleep_s)));
-	}
 
 	void take(const FrameEstimate& e)
 	{
@@ -145,20 +133,24 @@ class Run
 		outputs_.add(odometry_.keyFrames());
 	}
 
+	void tell(double t_s, const std::string& what) const
+	{
+		if (!hooks_.log) return;
+		char text[64];
+		std::snprintf(text, sizeof text, "%8.2f s  ", t_s);
+		hooks_.log(text + what);
+	}
+
 	void tell(const StatusChange& c) const
 	{
-		char text[64];
-		std::snprintf(text, sizeof text, "%8.2f s  ", secondsBetween(odometry_.firstFrame_ns(), c.t_ns));
-		hooks_.log(std::string(text) + toString(c.from) + " -> " + toString(c.to) + ": " + c.cause);
+		tell(secondsBetween(odometry_.firstFrame_ns(), c.t_ns), std::string(toString(c.from)) + " -> " + toString(c.to) + ": " + c.cause);
 	}
 
 	void tell(const GapLog::Gap& gap) const
 	{
-		if (!hooks_.log) return;
-		char text[96];
-		const double t_s = secondsBetween(result_.frames > 0 ? odometry_.firstFrame_ns() : *first_ns_, gap.begin_ns);
-		std::snprintf(text, sizeof text, "%8.2f s  gap of %.2f s in ", t_s, gap.duration_s);
-		hooks_.log(text + gap.label);
+		char text[64];
+		std::snprintf(text, sizeof text, "gap of %.2f s in ", gap.duration_s);
+		tell(secondsBetween(result_.frames > 0 ? odometry_.firstFrame_ns() : *first_ns_, gap.begin_ns), text + gap.label);
 	}
 
 	/** The message with the name of the rawlog, unless it stands there already. */
@@ -192,24 +184,23 @@ class Run
 		return text;
 	}
 
+	/** Time, speed of the replay, status, features, position and its deviation, the robot's speed; and, by the log's clock, the lag. */
 	std::string note(const FrameEstimate& e) const
 	{
 		char text[160];
-		std::snprintf(text, sizeof text, "%.1f s %s, %d features, x %.2f y %.2f m, sigma %.3f m",
-		              secondsBetween(odometry_.firstFrame_ns(), e.t_ns), toString(e.status), e.features, e.T_WO.p.x(), e.T_WO.p.y(),
-		              std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)));
+		std::snprintf(text, sizeof text, "%.1f s at %.1f x, %s, %d features, x %.2f y %.2f m, sigma %.3f m, %.2f m/s",
+		              secondsBetween(odometry_.firstFrame_ns(), e.t_ns), clock_.speed(), toString(e.status), e.features, e.T_WO.p.x(),
+		              e.T_WO.p.y(), std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)), e.state.v_WB.norm());
 		std::string line = text;
-		if (lag_s_ > 0.2)
-		{
-			std::snprintf(text, sizeof text, ", %.1f s behind", lag_s_);
-			line += text;
-		}
-		return line;
+		if (options_.replay_speed <= 0) return line;
+		std::snprintf(text, sizeof text, ", lag %.1f s", clock_.lag_s());
+		return line + text;
 	}
 
 	void finish(bool failed)
 	{
 		collectLandmarks();
+		result_.largest_lag_s = clock_.largestLag_s();
 		result_.wall_time_s = std::chrono::duration<double>(Clock::now() - begin_).count();
 		result_.duration_s = result_.frames > 0 ? secondsBetween(odometry_.firstFrame_ns(), last_frame_ns_) : 0;
 		result_.path_length_m = outputs_.pathLength_m();
@@ -264,9 +255,9 @@ class Run
 	OdometryRunResult result_;
 	MinuteLog minutes_;
 	GapLog gaps_{options_.odometry};
+	ReplayClock clock_{options_.replay_speed};
 	std::optional<int64_t> first_ns_;
 	int64_t last_ns_ = 0, last_frame_ns_ = 0;
-	double lag_s_ = 0;
 	size_t told_ = 0;
 };
 }  // namespace

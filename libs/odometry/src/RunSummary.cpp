@@ -156,6 +156,8 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["observations"] = observationsJson(odometry, counts);
 	j["wall_time_s"] = result.wall_time_s;
 	j["realtime_factor"] = result.wall_time_s > 0 ? result.duration_s / result.wall_time_s : 0.0;
+	j["replay_speed"] = options.replay_speed > 0 ? Json(options.replay_speed) : Json();
+	j["largest_lag_s"] = options.replay_speed > 0 ? Json(result.largest_lag_s) : Json();
 	j["peak_rss_mb"] = peakMemory_mb();
 	j["stages_ms"] = stagesJson(odometry.stageTimes());
 	j["minutes"] = minutesJson(minutes, odometry.stageTimes());

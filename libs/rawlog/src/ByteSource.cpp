@@ -1,6 +1,7 @@
 #include "ByteSource.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #include <viwo/core/Error.h>
 
@@ -45,7 +46,8 @@ class PipeSpool
 		return spool;
 	}
 
-	explicit PipeSpool(const std::string& path) : pipe_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), kept_(std::tmpfile())
+	// A pipe that nobody writes to yet is waited for where it is read: there a signal is heard.
+	explicit PipeSpool(const std::string& path) : pipe_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)), kept_(std::tmpfile())
 	{
 		if (pipe_ < 0) throw cannotOpen(path);
 		if (!kept_)
@@ -72,6 +74,9 @@ class PipeSpool
    private:
 	ssize_t readOn(void* target, size_t length)
 	{
+		// Unlike a read that waits, poll() is ended by a signal in any case.
+		pollfd ready = {pipe_, POLLIN, 0};
+		if (::poll(&ready, 1, -1) < 0) return errno == EINTR ? 0 : -1;
 		const ssize_t count = ::read(pipe_, target, length);
 		if (count <= 0) return count < 0 && errno == EINTR ? 0 : count;
 		if (std::fseek(kept_, 0, SEEK_END) != 0) return -1;

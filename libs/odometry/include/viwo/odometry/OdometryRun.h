@@ -39,6 +39,7 @@ struct OdometryRunResult
 	double path_length_m = 0;
 	double wheel_travel_m = 0;  //!< since the first pose; 0 where wheels are not used
 	double wall_time_s = 0;
+	double largest_lag_s = 0;  //!< how far a replay by the log's clock fell behind it
 	std::string final_status;
 	bool interrupted = false;
 	/** One line on observations that could not be used (not finite, stamps that do not increase, ...); empty if all could. */
