@@ -1,6 +1,7 @@
 #include "RosBagFile.h"
 
 #include "RosBagHeader.h"
+#include "RosBagRecords.h"
 
 #include <console_bridge/console.h>
 #include <rosbag/bag.h>
@@ -26,6 +27,7 @@ RosBagFile::RosBagFile(const std::vector<std::string>& paths) : impl_(std::make_
 	for (const std::string& path : paths)
 	{
 		requireReadableBag(path);
+		requireSoundRecords(path);
 		try
 		{
 			impl_->bags.push_back(std::make_unique<rosbag::Bag>(path));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "RosLayout.h"
+
 #include <rosbag/message_instance.h>
 #include <viwo/core/Error.h>
 
@@ -7,15 +9,15 @@
 
 namespace viwo
 {
-/** The message as a type. @throws Error where the bag's definition of it differs (its MD5 sum). */
+/** The message as a type. @throws Error where the bag's definition of it differs (its MD5 sum), or its lengths are damaged. */
 template <class Message>
 boost::shared_ptr<Message> instance(const rosbag::MessageInstance& message)
 {
-	const boost::shared_ptr<Message> result = message.instantiate<Message>();
-	if (!result)
+	if (!message.isType<Message>())
 		throw Error(message.getTopic() + ": " + message.getDataType() + " with MD5 sum " + message.getMD5Sum() +
 		            " is another definition than this program's; leave the topic out by a --map");
-	return result;
+	requireSoundLengths(message);
+	return message.instantiate<Message>();
 }
 
 template <class Stamp>

@@ -1,9 +1,10 @@
 #include "RosBagHeader.h"
 
+#include "RosBagFields.h"
+
 #include <viwo/core/Error.h>
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -29,42 +30,13 @@ bool startsWith(const std::string& text, const std::string& start)
 	            " --dst " + fs::path(path).stem().string() + ".bag");
 }
 
-uint32_t littleEndian32(const std::string& bytes, size_t at)
-{
-	uint32_t value = 0;
-	for (size_t i = 0; i < 4; ++i) value |= static_cast<uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-	return value;
-}
-
-/** The fields of a record's header: uint32 length, then `name=value` each. Nothing where they are damaged. */
-std::map<std::string, std::string> fieldsOf(const std::string& header)
-{
-	std::map<std::string, std::string> fields;
-	for (size_t at = 0; at + 4 <= header.size();)
-	{
-		const size_t length = littleEndian32(header, at);
-		const size_t equals = header.find('=', at + 4);
-		if (at + 4 + length > header.size() || equals == std::string::npos || equals >= at + 4 + length) return {};
-		fields[header.substr(at + 4, equals - at - 4)] = header.substr(equals + 1, at + 4 + length - equals - 1);
-		at += 4 + length;
-	}
-	return fields;
-}
-
 std::map<std::string, std::string> firstRecord(std::ifstream& file)
 {
 	std::string length(4, '\0');
-	if (!file.read(length.data(), 4) || littleEndian32(length, 0) > kMaxHeader) return {};
-	std::string header(littleEndian32(length, 0), '\0');
+	if (!file.read(length.data(), 4) || littleEndian(length) > kMaxHeader) return {};
+	std::string header(littleEndian(length), '\0');
 	if (!file.read(header.data(), static_cast<std::streamsize>(header.size()))) return {};
-	return fieldsOf(header);
-}
-
-uint64_t indexPosition(const std::string& field)
-{
-	uint64_t value = 0;
-	for (size_t i = 0; i < 8; ++i) value |= static_cast<uint64_t>(static_cast<unsigned char>(field[i])) << (8 * i);
-	return value;
+	return rosBagFields(header);
 }
 
 void refuseForeign(const std::string& path, const std::string& start)
@@ -99,7 +71,7 @@ void requireReadableBag(const std::string& path)
 		throw Error(path + ": encrypted (" + encryptor->second + "); decrypt it with `rosbag decrypt` on the machine that has the key");
 	const auto index = fields.find("index_pos");
 	if (index == fields.end() || index->second.size() != 8) throw Error(path + ": damaged, its first record is not a bag's header");
-	const uint64_t index_at = indexPosition(index->second), size = fs::file_size(path, ignored);
+	const uint64_t index_at = littleEndian(index->second), size = fs::file_size(path, ignored);
 	if (index_at == 0)
 		throw Error(path + ": unindexed, its recording was not ended; repair it with `rosbag reindex` of a ROS 1 installation");
 	if (index_at >= size)

@@ -1,11 +1,19 @@
+#include "AllTypesBag.h"
 #include "ExpectError.h"
 #include "RunProgram.h"
 #include "TempFolder.h"
-#include "TestBag.h"
 
 #include <viwo/importers/RosBagImporter.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
+#include <map>
+#include <random>
 
 using namespace viwo;
 using namespace viwo::testing;
@@ -86,6 +94,67 @@ TEST_F(BadBags, TruncatedAnywhere)
 	}
 	writeFile(path("cut.bag"), bytes.substr(0, bytes.size() / 2));
 	expectRefused("cut.bag", {"truncated", "rosbag reindex"});
+}
+
+/** Import in a process of its own. @return 0, or 1 where an Error says what is wrong; all else is none of what a user should see. */
+int statusOfImport(const std::string& bag, const std::string& rawlog)
+{
+	const pid_t child = fork();
+	if (child == 0)
+	{
+#ifndef __SANITIZE_ADDRESS__
+		// Lengths of gigabytes are to be refused before room is made for them.
+		const rlimit memory{rlim_t{1} << 30, rlim_t{1} << 30};
+		setrlimit(RLIMIT_AS, &memory);
+#endif
+		try
+		{
+			importRosBags({"", rawlog}, {{bag}, {}, false});
+		}
+		catch (const Error&)
+		{
+			_exit(1);
+		}
+		catch (...)
+		{
+			_exit(2);
+		}
+		_exit(0);
+	}
+	int status = 0;
+	waitpid(child, &status, 0);
+	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// Bytes that were changed, in messages, records and index, of plain and compressed chunks: an import or one line, never a crash.
+TEST_F(BadBags, DamagedBytes)
+{
+	const char* const wanted = std::getenv("VIWO_DAMAGED_BAGS");
+	const int cases = wanted != nullptr ? std::atoi(wanted) : 40;
+	std::mt19937 generator(1);
+	const auto upTo = [&generator](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(generator); };
+	for (const auto compression : {rosbag::compression::Uncompressed, rosbag::compression::LZ4, rosbag::compression::BZ2})
+	{
+		writeBagOfAllTypes(path("whole.bag"), compression);
+		const std::string bytes = readFile(path("whole.bag"));
+		std::map<int, int> seen;
+		for (int i = 0; i < cases; ++i)
+		{
+			std::string damaged = bytes;
+			const size_t at = i % 3 == 0 ? upTo(bytes.size() - 8) : bytes.size() - 8 - upTo(i % 3 == 1 ? 6000 : bytes.size() - 8);
+			const size_t count = 1 + upTo(4);
+			for (size_t k = 0; k < count; ++k) damaged[at + k] = upTo(2) == 0 ? '\xFF' : static_cast<char>(upTo(256));
+			writeFile(path("damaged.bag"), damaged);
+			const int status = statusOfImport(path("damaged.bag"), path("x.rawlog"));
+			++seen[status];
+			EXPECT_LE(status, 1) << "case " << i << ": " << count << " bytes at " << at << " of " << bytes.size();
+			if (status > 1 && std::getenv("VIWO_KEEP") != nullptr)
+				writeFile(std::string(std::getenv("VIWO_KEEP")) + "/" + std::to_string(compression) + "-" + std::to_string(i) + ".bag",
+				          damaged);
+		}
+		std::cout << "[measured] compression " << compression << ": " << seen[0] << " imported, " << seen[1] << " refused\n";
+		EXPECT_GT(seen[1], cases / 20);
+	}
 }
 
 TEST_F(BadBags, NothingToImport)

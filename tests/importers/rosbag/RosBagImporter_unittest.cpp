@@ -1,3 +1,4 @@
+#include "AllTypesBag.h"
 #include "BagFixture.h"
 #include "ExpectError.h"
 
@@ -15,54 +16,6 @@
 
 using namespace viwo;
 using namespace viwo::testing;
-
-namespace
-{
-const Pose3 kT_OB(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX())), Eigen::Vector3d(0.1, 0, 0.3));
-const Pose3 kT_OC(forwardOpticalAxes(), Eigen::Vector3d(0.3, 0.05, 0.25));
-const Pose3 kT_OL(Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ())), Eigen::Vector3d(0.2, 0, 0.15));
-
-/** Two seconds; messages of IMU and odometry are recorded 40 ms late and in pairs that are swapped. */
-void writeFullBag(const std::string& path)
-{
-	rosbag::Bag bag(path, rosbag::bagmode::Write);
-	tf2_msgs::TFMessage frames;
-	frames.transforms = {
-	    transform("base_link", "imu_link", kT_OB), transform("base_link", "mast", {kT_OC.R, {0, 0.05, 0}}),
-	    transform("/mast", "/cam0", {Eigen::Quaterniond::Identity(), kT_OC.R.conjugate() * Eigen::Vector3d(0.3, 0, 0.25)})};
-	bag.write("/tf_static", bagTime(0), frames);
-	tf2_msgs::TFMessage moving;
-	moving.transforms = {transform("odom", "base_link", {}), transform("base_link", "laser", kT_OL)};
-	bag.write("/tf", bagTime(1), moving);
-	bag.write("/cam0/camera_info", bagTime(2), cameraInfoMessage("cam0", "plumb_bob", {-0.3, 0.1, 1e-3, 2e-3, 0.01}));
-	bag.write("/cam1/camera_info", bagTime(2), cameraInfoMessage("cam1", "equidistant", {0.1, 0.02, -0.01, 1e-3}));
-	for (int i = 0; i < 100; ++i)
-	{
-		const int swapped_ms = 20 * (i ^ 1);
-		bag.write("/imu", bagTime(20 * i + 40), imuMessage(swapped_ms, {0.1, 9.8, 0.01 * (i ^ 1)}, {0.1, 0.2, 0.3 + i}));
-	}
-	for (int i = 0; i < 40; ++i) bag.write("/odom", bagTime(50 * i + 3), odometryMessage(50 * i, 0.5, 0.1 * i, 0.025 * i, 0.01 * i));
-	for (int i = 0; i < 10; ++i)
-	{
-		bag.write("/cam0/image_raw", bagTime(200 * i + 30),
-		          imageMessage(200 * i, "cam0", i % 2 == 0 ? "mono8" : "rgb8", i, i % 2 == 0 ? 1 : 3));
-		auto picture = stamped<sensor_msgs::CompressedImage>(200 * i + 1, "cam1");
-		cv::imencode(".jpg", cv::Mat(12, 16, CV_8U, cv::Scalar(10 * i)), picture.data);
-		bag.write("/cam1/image_raw/compressed", bagTime(200 * i + 31), picture);
-		auto scan = stamped<sensor_msgs::LaserScan>(200 * i + 5, "laser");
-		scan.angle_min = -1.5f, scan.angle_increment = 0.5f, scan.angle_max = 1.0f, scan.range_min = 0.1f, scan.range_max = 20;
-		scan.ranges = {1, 0.05f, 3, 25, std::numeric_limits<float>::quiet_NaN(), 6.0f + static_cast<float>(i)};
-		bag.write("/scan", bagTime(200 * i + 20), scan);
-		auto fix = stamped<sensor_msgs::NavSatFix>(200 * i + 7, "gps");
-		fix.latitude = 1e-5 * i, fix.longitude = 0, fix.altitude = 5, fix.status.status = static_cast<int8_t>(i == 3 ? -1 : 0);
-		bag.write("/fix", bagTime(200 * i + 25), fix);
-		auto pose = stamped<geometry_msgs::PoseStamped>(200 * i, "world");
-		pose.pose.position.x = 0.1 * i, pose.pose.orientation.w = 1;
-		bag.write("/vicon", bagTime(200 * i + 1), pose);
-	}
-	bag.close();
-}
-}  // namespace
 
 TEST_F(RosBag, AllTypesComeBackEqual)
 {
