@@ -29,6 +29,9 @@ std::unique_ptr<Group> standing(const Settings& settings);
 /** One part of the estimator off at a time. */
 std::unique_ptr<Group> ablation(const Settings& settings);
 
+/** Robots with other rates, mountings, lenses, labels and sizes, with configuration alone; three seeds at most. */
+std::unique_ptr<Group> robots(const Settings& settings);
+
 /** Recordings of real cars and copters, where they are at hand. */
 std::unique_ptr<Group> real(const Settings& settings);
 

@@ -13,6 +13,11 @@ experiments::SimulatedDrive corridorTestDrive();
 /** 20 s of a constant arc, in motion from the first sample on. */
 experiments::SimulatedDrive lobbyTestDrive();
 
+/** 10 s of free motion; a small colour camera looks left, the IMU lies on its side, other labels and rates. */
+experiments::SimulatedDrive sidewaysRobotDrive();
+/** 10 s of free motion; a fisheye at 5 Hz looks backwards, the IMU has 50 Hz, the wheels 5 Hz. */
+experiments::SimulatedDrive backwardsRobotDrive();
+
 /** Recipes of all. */
 std::vector<experiments::LogRecipe> testLogRecipes();
 

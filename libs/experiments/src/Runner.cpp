@@ -107,7 +107,8 @@ size_t Runner::logJob(const LogRecipe& recipe)
 	const std::string path = cache_.rawlog(recipe);
 	if (const auto known = logs_.find(path); known != logs_.end()) return known->second;
 	Job job = cache_.job(recipe);
-	if (recipe.same_images) job.after = {logJob(*recipe.same_images)};
+	for (const auto& needed : {recipe.same_images, recipe.made_of})
+		if (needed) job.after.push_back(logJob(*needed));
 	return logs_[path] = pool_.add(std::move(job));
 }
 

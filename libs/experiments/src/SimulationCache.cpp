@@ -35,6 +35,7 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 		return true;
 	};
 	job.command = {programs_ + "/" + recipe.program};
+	if (recipe.made_of) job.command.push_back(rawlog(*recipe.made_of));
 	job.command.insert(job.command.end(), recipe.arguments.begin(), recipe.arguments.end());
 	if (recipe.same_images) job.command.insert(job.command.end(), {"--images-from", folderOf(*recipe.same_images) + "/log_Images"});
 	job.command.insert(job.command.end(), {"-o", making + "/log.rawlog"});

@@ -5,9 +5,11 @@
 #include <viwo/sim/Mounting.h>
 #include <viwo/sim/RandomSource.h>
 
+#include <array>
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <thread>
@@ -19,6 +21,17 @@ namespace
 bool same(const Pose3& a, const Pose3& b)
 {
 	return a.p == b.p && a.R.coeffs() == b.R.coeffs();
+}
+
+/** Blue, green and red of grey surfaces in warm light; the luma stays what it was. */
+cv::Mat inWarmLight(const cv::Mat& grey)
+{
+	constexpr std::array<double, 3> kGains = {0.80, 1.0, 1.0763};
+	std::array<cv::Mat, 3> channels;
+	for (size_t i = 0; i < channels.size(); ++i) grey.convertTo(channels[i], CV_8U, kGains[i]);
+	cv::Mat colour;
+	cv::merge(channels.data(), channels.size(), colour);
+	return colour;
 }
 }  // namespace
 
@@ -98,7 +111,8 @@ void CameraRecorder::writeImage(Eye& eye, int64_t i, const std::string& path) co
 {
 	const double exposure_s = 1e-3 * options_.exposure_ms, open_s = time_s(i) - 0.5 * exposure_s;
 	GreyImage image = eye.see([&](double s) { return motion_.at(open_s + s * exposure_s).T_WO * T_OC_actual_; }, exposure(i));
-	const cv::Mat pixels(image.height_px, image.width_px, CV_8UC1, image.pixels.data());
+	cv::Mat pixels(image.height_px, image.width_px, CV_8UC1, image.pixels.data());
+	if (options_.colour) pixels = inWarmLight(pixels);
 	std::vector<int> parameters;
 	if (options_.format == CameraOptions::Format::jpg) parameters = {cv::IMWRITE_JPEG_QUALITY, options_.jpeg_quality};
 	if (!cv::imwrite(path, pixels, parameters)) throw Error(path + ": cannot write this image; check the folder and the free space");

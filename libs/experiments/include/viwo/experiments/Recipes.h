@@ -12,10 +12,12 @@ namespace viwo::experiments
 struct LogRecipe
 {
 	std::string name;                    //!< for messages and folders
-	std::string program;                 //!< viwo-sim or viwo-import
+	std::string program;                 //!< viwo-sim, viwo-import or another that makes a log, -o X.rawlog
 	std::vector<std::string> arguments;  //!< all but -o
 	std::string content;                 //!< of all inputs: logs of the same content are the same log
 	bool cached = true;                  //!< false: made anew every time
+	/** A log that this one is made of; it stands before the arguments. */
+	std::shared_ptr<const LogRecipe> made_of;
 	/** A log that has the same images; they are taken from there. */
 	std::shared_ptr<const LogRecipe> same_images;
 	double cost_s = 1;  //!< about how long it takes

@@ -41,6 +41,7 @@ struct CameraOptions : Options<CameraOptions>
 	double time_offset_ms = 0;
 	Format format = Format::jpg;
 	int jpeg_quality = 92;
+	bool colour = false;
 
 	/** @throws Error for an unusable list of coefficients. */
 	CameraModel model() const;
@@ -70,6 +71,7 @@ struct CameraOptions : Options<CameraOptions>
 		v("time_offset_ms", time_offset_ms, "t_d: IMU time = camera time + this", -1000.0, 1000.0);
 		v.choice("format", format, "image files: jpg | png", std::vector<std::string>{"jpg", "png"});
 		v("jpeg_quality", jpeg_quality, "", 10, 100);
+		v("colour", colour, "image files of three channels (grey surfaces in warm light) instead of one");
 	}
 };
 
