@@ -91,7 +91,7 @@ int measure(const Arguments& a)
 	Runner runner(std::filesystem::absolute(a.output).string(), a.programs);
 	for (const auto& group : groups) group->plan(runner);
 	const auto tell = [](const JobReport& report) { std::fprintf(stderr, "%s\n", toLine(report).c_str()); };
-	runner.execute(a.jobs, {app::interrupted, tell});
+	if (!runner.execute(a.jobs, {app::interrupted, tell})) throw Error("interrupted; what is finished is kept for the next time");
 
 	Results results;
 	for (const auto& group : groups)

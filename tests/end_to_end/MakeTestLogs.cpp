@@ -15,8 +15,8 @@ int makeTestLogs()
 	experiments::JobPool pool;
 	std::vector<size_t> jobs;
 	for (const experiments::LogRecipe& recipe : testing::testLogRecipes()) jobs.push_back(pool.add(cache.job(recipe)));
-	pool.run(2, {app::interrupted,
-	             [](const experiments::JobReport& report) { std::fprintf(stderr, "%s\n", experiments::toLine(report).c_str()); }});
+	const auto tell = [](const experiments::JobReport& report) { std::fprintf(stderr, "%s\n", experiments::toLine(report).c_str()); };
+	if (!pool.run(2, {app::interrupted, tell})) throw Error("interrupted; what is finished is kept for the next time");
 	for (const size_t job : jobs)
 		if (!pool.error(job).empty()) throw Error(pool.error(job));
 	return 0;

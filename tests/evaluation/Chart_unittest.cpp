@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <viwo/evaluation/Chart.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -58,6 +59,21 @@ TEST(BarChart, BarsAreAsHighAsTheirFigures)
 	EXPECT_NEAR(heights[2] / heights[0], 4, 0.04);
 	EXPECT_NE(svg.find(">4.00<"), std::string::npos);
 	EXPECT_NE(svg.find(">-<"), std::string::npos) << "a dash for what is not there";
+}
+
+/** Figures over narrow bars beside each other would run into each other. */
+TEST(BarChart, FiguresWiderThanTheirBarsAreTurned)
+{
+	BarChart chart{"Times", "time (s)", {"one", "two"}, {{"a", {1, 2}}, {"b", {4, 3}}}, 3};
+	EXPECT_EQ(toSvg(chart).find("rotate(-90)\" font-size"), std::string::npos);
+	for (int i = 0; i < 6; ++i) chart.groups.push_back("more");
+	for (auto& series : chart.series) series.values.resize(8, 3.5);
+	for (int i = 0; i < 2; ++i) chart.series.push_back(chart.series.front());
+	const std::string svg = toSvg(chart);
+	EXPECT_NE(svg.find("rotate(-90)\" font-size=\"11.0\""), std::string::npos);
+	// The highest bar leaves room for its figure of five characters.
+	const std::vector<double> heights = barHeights(svg);
+	EXPECT_LT(*std::max_element(heights.begin(), heights.end()), 220 - 5 * 6);
 }
 
 TEST(Charts, TakeTheColoursOfTheirPage)

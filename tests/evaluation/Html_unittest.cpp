@@ -61,3 +61,17 @@ TEST(HtmlPage, EscapesTextAndClosesItsTags)
 	EXPECT_TRUE(open.empty());
 	for (const char* word : {"<script", "@import", "url("}) EXPECT_EQ(html.find(word), std::string::npos) << word;
 }
+
+TEST(HtmlPage, WidePicturesStandAloneInTheirRow)
+{
+	const auto png = [](char width, char height)
+	{
+		const std::string three(3, '\0');
+		return "\x89PNG\r\n\x1a\n" + three + "\rIHDR" + three + width + three + height;
+	};
+	HtmlPage square("p"), wide("p");
+	square.image(png(100, 90), "image/png", "map");
+	wide.image(png(100, 20), "image/png", "map");
+	EXPECT_EQ(square.toString().find("<figure class"), std::string::npos);
+	EXPECT_NE(wide.toString().find("<figure class=\"wide\">"), std::string::npos);
+}

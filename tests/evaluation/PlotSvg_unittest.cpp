@@ -51,7 +51,7 @@ TEST(PlotSvg, AxesAreEqualAtEveryScale)
 				high = high.cwiseMax(p);
 			}
 		EXPECT_NEAR(high.x() - low.x(), high.y() - low.y(), 0.5) << radius_m;
-		EXPECT_GT(high.x() - low.x(), 250);
+		EXPECT_GT(high.x() - low.x(), 180);
 		EXPECT_GT(low.minCoeff(), 0);
 		const Eigen::Vector2d centre = 0.5 * (low + high);
 		EXPECT_NEAR((lines[1][0] - centre).norm(), 0.25 * (high.x() - low.x()), 0.5);

@@ -43,19 +43,132 @@ TEST_F(Experiments, EveryRunIsDoneOnceAndKept)
 	EXPECT_EQ(programs_.count(""), before + 2 * (1 + 3)) << "only what is new";
 }
 
+TEST_F(Experiments, AnInterruptionLeavesTablesOfWhatIsMeasured)
+{
+	int ended = 0;
+	JobHooks hooks;
+	hooks.ended = [&](const JobReport&) { ++ended; };
+	// The drives of seq05 come first: two logs, three modes of each.
+	hooks.interrupted = [&] { return ended >= 10; };
+	const ExperimentResult result = run(hooks);
+	EXPECT_TRUE(result.problems.empty()) << result.problems.front();
+	EXPECT_NE(result.interruption.find(" of 60 programs have not run"), std::string::npos) << result.interruption;
+	const std::string table1 = viwo::testing::readFile(out_.file("table1.md"));
+	const size_t second = table1.find("seq06");
+	EXPECT_LT(second, table1.find("...")) << "what is complete has figures\n" << table1;
+	EXPECT_LT(table1.find("..."), table1.find("The same command goes on")) << table1;
+	EXPECT_EQ(table1.find("fails"), std::string::npos) << table1;
+	const Json json = loadJson(out_.file("table1.json"));
+	EXPECT_FALSE(json.at("complete").get<bool>());
+	EXPECT_TRUE(json.at("results").at(0).at("median").at("ate_xyz_m").is_number());
+	EXPECT_TRUE(json.at("results").back().at("median").at("ate_xyz_m").is_null());
+	EXPECT_EQ(viwo::testing::readFile(out_.file("table3.md")).find("**"), std::string::npos) << "no method is better yet";
+	EXPECT_NE(viwo::testing::readFile(out_.file("report.html")).find("The same command goes on"), std::string::npos);
+}
+
 TEST_F(Experiments, GoOnAfterAnInterruption)
 {
 	request_.tables = {1};
+	request_.error_budget = {"seq05"};
+	programs_.addGroundTruth();
 	int ended = 0;
 	JobHooks hooks;
 	hooks.ended = [&](const JobReport&) { ++ended; };
 	hooks.interrupted = [&] { return ended >= 5; };
-	EXPECT_THROW(run(hooks), Error);
-	EXPECT_FALSE(std::filesystem::exists(out_.file("table1.json")));
+	EXPECT_FALSE(run(hooks).interruption.empty());
 	EXPECT_TRUE(run().problems.empty());
-	EXPECT_LE(programs_.count("sim --"), 4 + 2) << "at most what was running is done again";
-	EXPECT_LE(programs_.count("odometry"), 12 + 2);
-	EXPECT_TRUE(std::filesystem::exists(out_.file("table1.json")));
+	EXPECT_LE(programs_.count("odometry"), 12 + 2 * 25 + 2) << "at most what was running is done again";
+	EXPECT_TRUE(loadJson(out_.file("table1.json")).at("complete").get<bool>());
+	for (const char* table : {"table1.md", "table1_lidar.md", "error_budget.md"})
+		EXPECT_EQ(viwo::testing::readFile(out_.file(table)).find("..."), std::string::npos) << table;
+}
+
+/** What is there is seen even where it stands behind what is not. */
+TEST_F(Experiments, AnInterruptionForgetsNothing)
+{
+	request_.tables = {1};
+	request_.seeds = {2};
+	run();
+	request_.seeds = {1, 2};
+	JobHooks hooks;
+	hooks.interrupted = [] { return true; };
+	const ExperimentResult result = run(hooks);
+	EXPECT_NE(result.interruption.find("8 of 16 programs"), std::string::npos) << result.interruption;
+	for (const Json& row : loadJson(out_.file("table1.json")).at("results"))
+	{
+		EXPECT_EQ(row.at("seeds").at(0).at("problem"), "not measured yet");
+		EXPECT_EQ(row.at("seeds").at(1).at("problem"), "");
+	}
+}
+
+TEST_F(Experiments, TwoAtATimeInOneFolderAreRefused)
+{
+	request_.tables = {1};
+	JobHooks hooks;
+	std::string refusal;
+	hooks.ended = [&](const JobReport&)
+	{
+		if (!refusal.empty()) return;
+		try
+		{
+			run();
+			refusal = "none";
+		}
+		catch (const Error& e)
+		{
+			refusal = e.what();
+		}
+	};
+	EXPECT_TRUE(run(hooks).problems.empty());
+	EXPECT_NE(refusal.find("another viwo-experiments is at work"), std::string::npos) << refusal;
+}
+
+TEST_F(Experiments, TwoAtATimeMayShareACache)
+{
+	request_.tables = {1};
+	const viwo::testing::TempFolder other, cache;
+	JobHooks hooks;
+	bool begun = false;
+	hooks.running = [&](const JobReport&)
+	{
+		if (begun) return;
+		begun = true;
+		EXPECT_TRUE(runExperiments(request_, {other.path(), cache.path(), programs_.folder()}, 2, {}).problems.empty());
+	};
+	EXPECT_TRUE(runExperiments(request_, {out_.path(), cache.path(), programs_.folder()}, 2, hooks).problems.empty());
+	for (const auto& entry : std::filesystem::directory_iterator(cache.path()))
+		EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+/** Files that somebody has removed or a full disk has cut are made again, or told as a problem; the rest of the tables stands. */
+TEST_F(Experiments, DamagedFilesDoNotStopTheRest)
+{
+	request_.sequences = {"seq05"};
+	run();
+	const std::string runs = out_.file("runs/");
+	std::filesystem::remove(runs + "seq05-s1-viwo/trajectory.tum");
+	viwo::testing::writeFile(runs + "seq05-s2-viwo/trajectory.tum", "1 2 3\n");
+	viwo::testing::writeFile(runs + "seq05-s1-viwo-start30/summary.json", "{");
+	const int before = programs_.count("odometry");
+	const ExperimentResult result = run();
+	EXPECT_EQ(programs_.count("odometry"), before + 1) << "the one without a trajectory";
+	ASSERT_EQ(result.problems.size(), 2u) << result.problems.front();
+	EXPECT_NE(result.problems[0].find("seq05, seed 2, viwo: "), std::string::npos) << result.problems[0];
+	EXPECT_NE(result.problems[1].find("seq05, seed 1, start at 30 s: "), std::string::npos) << result.problems[1];
+	EXPECT_NE(viwo::testing::readFile(out_.file("table1.md")).find("fails"), std::string::npos);
+}
+
+/** Without logs nothing can be measured, and all that was asked for is still written. */
+TEST_F(Experiments, LogsThatCannotBeMadeAreProblems)
+{
+	programs_.addGroundTruth();
+	request_.error_budget = {"seq06"};
+	programs_.failToSimulate();
+	const ExperimentResult result = run();
+	ASSERT_FALSE(result.problems.empty());
+	EXPECT_NE(result.problems.back().find("no space"), std::string::npos) << result.problems.back();
+	for (const char* table : {"table1.md", "table2.md", "table3.md", "error_budget.md"})
+		EXPECT_TRUE(std::filesystem::exists(out_.file(table))) << table;
 }
 
 TEST_F(Experiments, RunsThatFailAreRowsWithoutFiguresAndTriedAgain)
@@ -183,7 +296,7 @@ TEST_F(Experiments, ReportStandsAlone)
 		EXPECT_EQ(rest.find(word), std::string::npos)
 		    << word << " in ..." << rest.substr(rest.find(word) < 80 ? 0 : rest.find(word) - 80, 160);
 	}
-	for (const char* tag : {"svg", "table", "figure", "div", "p", "h2", "tr", "td", "g", "details"})
+	for (const char* tag : {"svg", "table", "figure", "div", "p", "h2", "h3", "tr", "td", "g", "details"})
 	{
 		const auto count = [&](const std::string& part)
 		{

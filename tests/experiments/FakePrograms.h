@@ -35,9 +35,9 @@ class FakePrograms
 		script("viwo-sim", output + "echo \"sim $*\" >> " + calls() + "\necho log > \"$out\"\ncp " + folder_.file("truth.tum") +
 		                       " \"${out%.rawlog}_ground_truth.tum\"\n");
 		script("viwo-odometry",
-		       output + "echo \"odometry $*\" >> " + calls() + "\nif [ -e " + folder_.file("fail") +
-		           " ]; then echo 'viwo-odometry: error: told to fail' >&2; exit 1; fi\nif [ -e " + folder_.file("never") +
-		           " ] && case \"$*\" in *\"--mode $(cat " + folder_.file("never") +
+		       output + "echo \"odometry $*\" >> " + calls() + "\n[ -e " + folder_.file("slow") + " ] && sleep 0.3\nif [ -e " +
+		           folder_.file("fail") + " ]; then echo 'viwo-odometry: error: told to fail' >&2; exit 1; fi\nif [ -e " +
+		           folder_.file("never") + " ] && case \"$*\" in *\"--mode $(cat " + folder_.file("never") +
 		           ")\"*) true;; *) false;; esac; then echo '{\"status\": \"initialising\", \"frames\": 751, \"first_pose_s\": null, "
 		           "\"initialization_time_s\": null}' > \"$out/summary.json\"; echo 'viwo-odometry: error: no pose' >&2; exit 1; fi\ncp " +
 		           folder_.file("estimate.tum") +
@@ -65,6 +65,10 @@ class FakePrograms
 	}
 	/** From now on no run of this mode finds a pose. */
 	void neverStart(const std::string& mode) { std::ofstream(folder_.file("never")) << mode; }
+	/** From now on a run takes a good part of a second. */
+	void takeTime() { std::ofstream(folder_.file("slow")) << "x"; }
+	/** From now on no log can be made. */
+	void failToSimulate() { script("viwo-sim", "echo 'viwo-sim: error: no space' >&2; exit 1\n"); }
 	/** From now on (or no longer) every run fails. */
 	void fail(bool yes)
 	{

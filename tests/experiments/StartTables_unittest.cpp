@@ -9,7 +9,7 @@ namespace
 {
 Start start(double start_s, double vins_rmse_m, double own_rmse_m, bool driving = true)
 {
-	Start s{"seq05", 1, start_s, driving, {}, {}};
+	Start s{"seq05", 1, start_s, driving, false, {}, {}};
 	s.vins.aligned_s = 5;
 	s.vins.rmse_m = vins_rmse_m;
 	s.ours.aligned_s = driving ? 1 : 9;
@@ -30,6 +30,23 @@ TEST(StartTables, TheSmallerAverageIsBoldWhereBothStart)
 	const std::string markdown = table3({start(30, 0.001, 0.01), start(60, 0.003, 0.02)}).toMarkdown();
 	EXPECT_NE(markdown.find("**0.002**"), std::string::npos) << markdown;
 	EXPECT_EQ(markdown.find("**0.015**"), std::string::npos) << markdown;
+}
+
+TEST(StartTables, WhatPrintsTheSameIsNoBetter)
+{
+	const std::string markdown = table3({start(30, 0.0101, 0.0102)}).toMarkdown();
+	const size_t first = markdown.find("**0.010**");
+	EXPECT_NE(markdown.find("**0.010**", first + 1), std::string::npos) << markdown;
+}
+
+TEST(StartTables, AnOpenStartLeavesItsAverageOpen)
+{
+	std::vector<Start> starts{start(30, 0.1, 0.1), start(60, 0.1, 0.1)};
+	starts[1].open = true;
+	const std::string csv = table3(starts).toCsv();
+	EXPECT_NE(csv.find("seq05,VINS-Mono's method,0.100,...,,,,,,...\n"), std::string::npos) << csv;
+	EXPECT_EQ(startRuns(starts).toCsv().find(",60,"), std::string::npos);
+	EXPECT_FALSE(startsJson(starts).at("starts").at(1).contains("ours"));
 }
 
 TEST(StartTables, AStartThatDoesNotDriveCountsForTheFirstPoseOnly)

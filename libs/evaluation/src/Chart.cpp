@@ -11,9 +11,11 @@ namespace viwo
 namespace
 {
 // Layout, in user units (pixels at 100 %).
-constexpr double kWidth = 640, kHeight = 260, kLeft = 56, kRight = 16, kTop = 36, kAxisHeight = 44;
+constexpr double kWidth = 480, kHeight = 220, kLeft = 56, kRight = 16, kTop = 36, kAxisHeight = 44;
 constexpr double kBottom = kTop + kHeight;
 constexpr int kGridLinesX = 8, kGridLinesY = 6;
+/** Figures over bars: their size, and how wide a character is at most. */
+constexpr double kFigure = 11, kFigureCharacter = 6.4;
 
 /** One axis: figures to places. */
 class Axis
@@ -98,13 +100,31 @@ std::string curve(const LineChart::Curve& curve, const Axis& x, const Axis& y, c
 	return svg;
 }
 
-std::string bar(double x, double width, double value, const Axis& y, const std::string& fill, int decimals, const SvgPalette& c)
+std::string textOf(double value, int decimals)
 {
-	const std::string middle = "text-anchor=\"middle\" font-size=\"11\" fill=\"" + c.muted + "\"";
-	if (!std::isfinite(value)) return svgText(x + width / 2, kBottom - 4, "-", middle);
-	const double top = y.place(value);
-	return "<rect x=\"" + svgNumber(x) + "\" y=\"" + svgNumber(top) + "\" width=\"" + svgNumber(width) + "\" height=\"" +
-	       svgNumber(kBottom - top) + "\" fill=\"" + fill + "\"/>\n" + svgText(x + width / 2, top - 4, fixed(value, decimals), middle);
+	return std::isfinite(value) ? fixed(value, decimals) : "-";
+}
+
+/** The width of the longest figure over a bar. */
+double widestFigure(const BarChart& chart)
+{
+	size_t characters = 1;
+	for (const auto& series : chart.series)
+		for (const double value : series.values) characters = std::max(characters, textOf(value, chart.decimals).size());
+	return kFigureCharacter * static_cast<double>(characters);
+}
+
+/** @param upright the figure is turned by a quarter: bars beside each other are narrower than their figures. */
+std::string bar(double x, double width, double top, const std::string& figure, bool upright, const std::string& fill, const SvgPalette& c)
+{
+	const double middle = x + width / 2;
+	const std::string style = "font-size=\"" + svgNumber(kFigure) + "\" fill=\"" + c.muted + "\"";
+	const std::string rect = "<rect x=\"" + svgNumber(x) + "\" y=\"" + svgNumber(top) + "\" width=\"" + svgNumber(width) + "\" height=\"" +
+	                         svgNumber(kBottom - top) + "\" fill=\"" + fill + "\"/>\n";
+	const std::string text = upright ? "<text transform=\"translate(" + svgNumber(middle + 0.35 * kFigure) + " " + svgNumber(top - 4) +
+	                                       ") rotate(-90)\" " + style + ">" + figure + "</text>\n"
+	                                 : svgText(middle, top - 4, figure, "text-anchor=\"middle\" " + style);
+	return (top < kBottom ? rect : "") + text;
 }
 }  // namespace
 
@@ -142,18 +162,24 @@ std::string toSvg(const BarChart& chart, PlotColours colours)
 	for (const auto& series : chart.series)
 		for (const double value : series.values)
 			if (std::isfinite(value)) high = std::max(high, value);
-	const Axis y(0, 1.1 * high, kBottom, kTop, kGridLinesY);
-	std::string body = yGrid(y, chart.y_label, c) + frame(c);
 	const double group_width = kWidth / static_cast<double>(std::max<size_t>(1, chart.groups.size()));
 	const double width = 0.86 * group_width / static_cast<double>(std::max<size_t>(1, chart.series.size()));
+	const bool upright = widestFigure(chart) > width;
+	const double room = upright ? widestFigure(chart) + 8 : kFigure + 8;
+	const Axis y(0, high * kHeight / (kHeight - room), kBottom, kTop, kGridLinesY);
+	std::string body = yGrid(y, chart.y_label, c) + frame(c);
 	std::vector<SvgLegendEntry> entries;
 	for (size_t s = 0; s < chart.series.size(); ++s)
 	{
-		const std::string& fill = c.curves[chart.series[s].colour.value_or(s) % c.curves.size()];
-		entries.push_back({chart.series[s].name, "stroke=\"" + fill + "\" stroke-width=\"8\""});
-		for (size_t g = 0; g < chart.groups.size() && g < chart.series[s].values.size(); ++g)
-			body += bar(kLeft + (static_cast<double>(g) + 0.07) * group_width + static_cast<double>(s) * width, 0.92 * width,
-			            chart.series[s].values[g], y, fill, chart.decimals, c);
+		const auto& series = chart.series[s];
+		const std::string& fill = c.curves[series.colour.value_or(s) % c.curves.size()];
+		entries.push_back({series.name, "stroke=\"" + fill + "\" stroke-width=\"8\""});
+		for (size_t g = 0; g < chart.groups.size() && g < series.values.size(); ++g)
+		{
+			const double x = kLeft + (static_cast<double>(g) + 0.07) * group_width + static_cast<double>(s) * width;
+			const double value = series.values[g];
+			body += bar(x, 0.92 * width, std::isfinite(value) ? y.place(value) : kBottom, textOf(value, chart.decimals), upright, fill, c);
+		}
 	}
 	for (size_t g = 0; g < chart.groups.size(); ++g)
 		body += svgText(kLeft + (static_cast<double>(g) + 0.5) * group_width, kBottom + 18, chart.groups[g],

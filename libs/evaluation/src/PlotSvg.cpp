@@ -14,7 +14,7 @@ namespace viwo
 namespace
 {
 // Layout, in user units (pixels at 100 %).
-constexpr double kLongSide = 640, kShortestSide = 200;
+constexpr double kLongSide = 480, kShortestSide = 180;
 constexpr double kLeft = 56, kRight = 16, kTop = 36, kAxisHeight = 44;
 /** Points closer together than this on the paper are one. */
 constexpr double kResolution = 0.4;

@@ -111,7 +111,7 @@ std::string evaluationHtml(const std::string& reference, const EvaluationOptions
 	           "Root mean squares. ATE: absolute trajectory error; RPE: relative error over 1 s and over 1 m of the path. The smallest ATE "
 	           "is bold.");
 	page.beginRow();
-	page.figure(pictures.paths, "Trajectories from above, " + alignmentText(options.alignment) + ", equal axes in metres.");
+	page.figure(pictures.paths, "Trajectories from above, " + alignmentText(options.alignment) + ", equal axes in metres.", true);
 	page.figure(pictures.error_over_time, "Distance between each pose and the reference, in metres, over time in seconds.");
 	page.figure(pictures.drift_over_distance, "Root mean square of the relative error of pieces of the path, in per cent of their length.");
 	page.endRow();

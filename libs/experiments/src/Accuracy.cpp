@@ -1,17 +1,17 @@
 #include <viwo/core/Error.h>
 #include <viwo/experiments/Accuracy.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
+
+#include "Figures.h"
 
 namespace viwo::experiments
 {
 namespace
 {
-constexpr double kNever = std::numeric_limits<double>::infinity();
-/** Seconds of computing a second of a log. */
-constexpr double kWheelCost = 0.005, kVisionCost = 0.35;
+/** Of ATE in tables, m. */
+constexpr int kDecimals = 3;
 /** A run that covers less of the drive is a failure, whatever its error. */
 constexpr double kRequiredCoverage = 0.9;
 
@@ -36,35 +36,14 @@ std::vector<Variant> variantsOf(const Request& request)
 	return variants;
 }
 
-DriveErrors errorsOf(const Outcome& outcome, uint64_t seed)
+/** @throws Error where nothing can be compared. */
+void judge(const Trajectory& truth, DriveErrors& errors)
 {
-	DriveErrors errors;
-	errors.seed = seed;
-	errors.problem = outcome.error;
-	errors.failed = outcome.failed() && !outcome.no_pose;
-	errors.folder = outcome.folder;
-	errors.ground_truth = outcome.ground_truth;
-	if (outcome.failed()) return errors;
-	try
-	{
-		const Trajectory truth = outcome.truth(), estimate = outcome.trajectory();
-		EvaluationOptions options;
-		errors.se3 = evaluate(truth, estimate, options);
-		options.alignment = AlignmentKind::yaw;
-		errors.yaw = evaluate(truth, estimate, options);
-		if (errors.se3.coverage < kRequiredCoverage)
-			errors.problem = "covers only " + fixed(100 * errors.se3.coverage, 0) + " % of the drive";
-	}
-	catch (const Error& e)
-	{
-		errors.problem = e.what();
-	}
-	return errors;
-}
-
-std::string cell(double value_m)
-{
-	return std::isfinite(value_m) ? fixed(value_m, 3) : "fails";
+	EvaluationOptions options;
+	errors.se3 = evaluate(truth, *errors.estimate, options);
+	options.alignment = AlignmentKind::yaw;
+	errors.yaw = evaluate(truth, *errors.estimate, options);
+	if (errors.se3.coverage < kRequiredCoverage) errors.problem = "covers only " + fixed(100 * errors.se3.coverage, 0) + " % of the drive";
 }
 
 double xy(const DriveErrors& e)
@@ -96,14 +75,6 @@ const DriveResult* find(const std::vector<DriveResult>& results, const std::stri
 		if (result.sequence == sequence && result.variant.name == variant) return &result;
 	return nullptr;
 }
-
-std::vector<std::string> sequencesOf(const std::vector<DriveResult>& results)
-{
-	std::vector<std::string> names;
-	for (const DriveResult& result : results)
-		if (names.empty() || names.back() != result.sequence) names.push_back(result.sequence);
-	return names;
-}
 }  // namespace
 
 const std::vector<Variant>& modes()
@@ -122,15 +93,34 @@ const std::vector<Variant>& ablations()
 	return list;
 }
 
-double DriveErrors::xyz_m() const
+DriveErrors driveErrors(const Outcome& outcome, uint64_t seed, std::optional<Trajectory>& truth)
 {
-	return problem.empty() ? se3.ate_xyz_m : kNever;
+	DriveErrors errors;
+	errors.seed = seed;
+	errors.problem = outcome.error;
+	errors.open = outcome.open;
+	errors.failed = outcome.failed() && !outcome.no_pose && !outcome.open;
+	errors.folder = outcome.folder;
+	errors.ground_truth = outcome.ground_truth;
+	if (outcome.failed()) return errors;
+	try
+	{
+		if (!truth) truth = outcome.truth();
+		errors.estimate = std::make_shared<const Trajectory>(outcome.trajectory());
+		judge(*truth, errors);
+	}
+	catch (const Error& e)
+	{
+		errors.problem = e.what();
+		errors.failed = !errors.estimate;  // the files; an estimate that cannot be compared is the estimator's
+	}
+	return errors;
 }
 
 double DriveResult::median(const std::function<double(const DriveErrors&)>& figure) const
 {
 	std::vector<double> values;
-	for (const DriveErrors& errors : seeds) values.push_back(errors.problem.empty() ? figure(errors) : kNever);
+	for (const DriveErrors& e : seeds) values.push_back(e.open ? kOpen : e.problem.empty() ? figure(e) : kFailed);
 	return experiments::median(values);
 }
 
@@ -144,14 +134,18 @@ void planDrives(Runner& runner, const Request& request)
 std::vector<DriveResult> driveResults(const Runner& runner, const Request& request)
 {
 	std::vector<DriveResult> results;
+	const std::vector<Variant> variants = variantsOf(request);
 	for (const std::string& sequence : request.sequences)
-		for (const Variant& variant : variantsOf(request))
+	{
+		const size_t first = results.size();
+		for (const Variant& variant : variants) results.push_back({sequence, variant, {}});
+		for (const uint64_t seed : request.seeds)
 		{
-			DriveResult result{sequence, variant, {}};
-			for (const uint64_t seed : request.seeds)
-				result.seeds.push_back(errorsOf(runner.outcome(runOf(sequence, seed, variant)), seed));
-			results.push_back(std::move(result));
+			std::optional<Trajectory> truth;
+			for (size_t i = 0; i < variants.size(); ++i)
+				results[first + i].seeds.push_back(driveErrors(runner.outcome(runOf(sequence, seed, variants[i])), seed, truth));
 		}
+	}
 	return results;
 }
 
@@ -160,29 +154,29 @@ Table table1(const std::vector<DriveResult>& results)
 	std::vector<Table::Column> columns{{"sequence", "", true}, {"", "", true}};
 	for (const Variant& mode : modes())
 		for (const char* axes : {"x-y", "z", "x-y-z"}) columns.push_back({mode.name + " " + axes, "m", false});
+	columns.push_back({"viwo z, yaw only", "m"});
 	Table table(columns);
 	for (const std::string& sequence : sequencesOf(results))
 	{
 		std::vector<std::string> own{sequence, "ours"}, printed{"", "paper"};
-		std::vector<double> figures(2, kNever);
+		std::vector<std::vector<double>> by_axes(3);
 		for (const Variant& mode : modes())
 		{
-			const DriveResult* result = find(results, sequence, mode.name);
+			const DriveResult& result = *find(results, sequence, mode.name);
 			const PaperAte& paper = paperOf(sequence, mode.name);
+			size_t axes = 0;
 			for (const auto& [figure, paper_m] : {std::pair(xy, paper.xy_m), std::pair(z, paper.z_m), std::pair(xyz, paper.xyz_m)})
 			{
-				figures.push_back(result == nullptr ? kNever : result->median(figure));
-				own.push_back(result == nullptr ? "-" : cell(figures.back()));
+				by_axes[axes].push_back(result.median(figure));
+				own.push_back(cell(by_axes[axes++].back(), kDecimals));
 				printed.push_back(fixed(paper_m, 2));
 			}
 		}
 		std::set<size_t> bold;
-		for (size_t axes = 0; axes < 3; ++axes)
-		{
-			const double best = std::min({figures[2 + axes], figures[5 + axes], figures[8 + axes]});
-			for (size_t i = 2 + axes; i < figures.size(); i += 3)
-				if (figures[i] == best && std::isfinite(best)) bold.insert(i);
-		}
+		for (size_t axes = 0; axes < by_axes.size(); ++axes)
+			for (const size_t mode : smallest(by_axes[axes], kDecimals)) bold.insert(2 + 3 * mode + axes);
+		own.push_back(cell(find(results, sequence, "viwo")->median(zYaw), kDecimals));
+		printed.emplace_back("-");
 		table.addRow(own, bold);
 		table.addRow(printed);
 	}
@@ -224,7 +218,7 @@ Table ablationTable(const std::vector<DriveResult>& results)
 	{
 		std::vector<std::string> cells{sequence};
 		for (const Table::Column& column : columns)
-			if (const DriveResult* result = find(results, sequence, column.name)) cells.push_back(cell(result->median(xyz)));
+			if (const DriveResult* result = find(results, sequence, column.name)) cells.push_back(cell(result->median(xyz), kDecimals));
 		if (cells.size() == columns.size()) table.addRow(cells);
 	}
 	return table;
@@ -240,7 +234,7 @@ Json table1Json(const std::vector<DriveResult>& results)
 		                 {"ate_z_m", result.median(z)},
 		                 {"ate_xyz_m", result.median(xyz)},
 		                 {"ate_z_yaw_aligned_m", result.median(zYaw)}};
-		if (find(results, result.sequence, result.variant.name) != nullptr && result.variant.overrides.empty())
+		if (result.variant.overrides.empty())
 		{
 			const PaperAte& paper = paperOf(result.sequence, result.variant.name);
 			row["paper"] = {{"ate_xy_m", paper.xy_m}, {"ate_z_m", paper.z_m}, {"ate_xyz_m", paper.xyz_m}};

@@ -1,9 +1,10 @@
-#include <viwo/core/Error.h>
+#include <viwo/experiments/Accuracy.h>
 #include <viwo/experiments/ErrorBudget.h>
 
 #include <cmath>
 #include <functional>
-#include <limits>
+
+#include "Figures.h"
 
 namespace viwo::experiments
 {
@@ -11,10 +12,7 @@ namespace
 {
 using Words = std::vector<std::string>;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 const std::string kNoError = "0 0 0 0 0 0";
-/** Seconds of computing a second of a log. */
-constexpr double kVisionCost = 0.2;
 
 /** The same drive with some sources switched off. Where the camera does not notice, the images are those of another. */
 RunRecipe runOf(const std::string& sequence, uint64_t seed, const std::string& what, const Words& off, const Words* images_of)
@@ -71,22 +69,22 @@ RunRecipe withoutOf(const std::string& sequence, uint64_t seed, const ErrorSourc
 }
 
 /** Median over the seeds of the runs that a recipe makes. */
-double medianOf(const Runner& runner, const Request& request, const std::function<RunRecipe(uint64_t)>& recipe, Words& problems)
+double medianAte(const Runner& runner, const Request& request, const std::function<RunRecipe(uint64_t)>& recipe, Words& problems)
 {
-	std::vector<double> values;
+	DriveResult result;
 	for (const uint64_t seed : request.seeds)
 	{
 		const RunRecipe run = recipe(seed);
-		const Outcome outcome = runner.outcome(run);
-		if (outcome.failed() && !outcome.no_pose) problems.push_back(run.name() + ": " + outcome.error);
-		values.push_back(outcome.failed() ? kNever : outcome.errors().ate_xyz_m);
+		std::optional<Trajectory> truth;
+		result.seeds.push_back(driveErrors(runner.outcome(run), seed, truth));
+		if (result.seeds.back().failed) problems.push_back(run.name() + ": " + result.seeds.back().problem);
 	}
-	return median(values);
+	return result.median([](const DriveErrors& e) { return e.se3.ate_xyz_m; });
 }
 
-std::string cell(double ate_m)
+std::string centimetres(double ate_m)
 {
-	return std::isfinite(ate_m) ? fixed(100 * ate_m, 2) : "fails";
+	return cell(100 * ate_m, 2);
 }
 }  // namespace
 
@@ -134,7 +132,7 @@ std::vector<ErrorBudget> errorBudgets(const Runner& runner, const Request& reque
 		ErrorBudget budget;
 		budget.sequence = sequence;
 		const auto ate_m = [&](const std::function<RunRecipe(uint64_t)>& recipe)
-		{ return medianOf(runner, request, recipe, budget.problems); };
+		{ return medianAte(runner, request, recipe, budget.problems); };
 		budget.all_m = ate_m([&](uint64_t seed) { return allOf(sequence, seed); });
 		budget.none_m = ate_m([&](uint64_t seed) { return noneOf(sequence, seed); });
 		for (const ErrorSource& source : errorSources())
@@ -157,12 +155,13 @@ Table errorBudgetTable(const std::vector<ErrorBudget>& budgets)
 	}
 	Table table(columns);
 	std::vector<std::string> whole{"all of them, and none"};
-	for (const ErrorBudget& budget : budgets) whole.insert(whole.end(), {cell(budget.all_m), cell(budget.none_m)});
+	for (const ErrorBudget& budget : budgets) whole.insert(whole.end(), {centimetres(budget.all_m), centimetres(budget.none_m)});
 	table.addRow(whole);
 	for (size_t i = 0; i < errorSources().size(); ++i)
 	{
 		std::vector<std::string> cells{errorSources()[i].name};
-		for (const ErrorBudget& budget : budgets) cells.insert(cells.end(), {cell(budget.alone_m[i]), cell(budget.without_m[i])});
+		for (const ErrorBudget& budget : budgets)
+			cells.insert(cells.end(), {centimetres(budget.alone_m[i]), centimetres(budget.without_m[i])});
 		table.addRow(cells);
 	}
 	return table;

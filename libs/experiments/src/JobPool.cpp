@@ -47,6 +47,12 @@ int spawn(const Job& job)
 	_exit(127);
 }
 
+void stop(int pid)
+{
+	kill(pid, SIGKILL);
+	waitpid(pid, nullptr, 0);
+}
+
 int spawnLoad()
 {
 	const int pid = fork();
@@ -54,6 +60,19 @@ int spawnLoad()
 	prctl(PR_SET_PDEATHSIG, SIGKILL);
 	for (volatile double x = 1;; x = x * 1.0000001 + 1e-9)
 		;
+}
+
+/** What cannot be read is made again. */
+bool isThere(const Job& job)
+{
+	try
+	{
+		return job.there && job.there();
+	}
+	catch (const std::exception&)
+	{
+		return false;
+	}
 }
 
 std::string describe(int status, const std::string& err_path)
@@ -81,17 +100,19 @@ size_t JobPool::add(Job job)
 	return entries_.size() - 1;
 }
 
-void JobPool::run(size_t parallel, const JobHooks& hooks)
+bool JobPool::run(size_t parallel, const JobHooks& hooks)
 {
 	hooks_ = hooks;
+	parallel_ = std::max<size_t>(1, parallel);
 	begin_s_ = now_s();
 	try
 	{
-		while (!allDone())
+		endWhatIsThere();
+		while (!allDone() && !interrupted())
 		{
-			if (hooks_.interrupted && hooks_.interrupted()) throw Error("interrupted; what is finished is kept for the next time");
-			startDue(parallel);
+			startDue();
 			collect();
+			tellWhatRuns();
 			std::this_thread::sleep_for(std::chrono::milliseconds(20));
 		}
 	}
@@ -100,12 +121,21 @@ void JobPool::run(size_t parallel, const JobHooks& hooks)
 		stopAll();
 		throw;
 	}
+	stopAll();
+	return allDone();
 }
 
-void JobPool::startDue(size_t parallel)
+/** First of all, so that an interruption leaves no result unseen and the time that is left is that of work. */
+void JobPool::endWhatIsThere()
 {
 	for (Entry& entry : entries_)
-		if (!entry.job.alone && running() < parallel && due(entry)) start(entry);
+		if (due(entry) && isThere(entry.job)) end(entry, "");
+}
+
+void JobPool::startDue()
+{
+	for (Entry& entry : entries_)
+		if (!entry.job.alone && running() < parallel_ && due(entry)) start(entry);
 	if (running() > 0) return;
 	const auto together = [](const Entry& e) { return !e.job.alone && e.state != State::done; };
 	if (std::any_of(entries_.begin(), entries_.end(), together)) return;
@@ -130,7 +160,8 @@ void JobPool::start(Entry& entry)
 {
 	try
 	{
-		if (entry.job.prepare && !entry.job.prepare()) return end(entry, "");
+		if (isThere(entry.job)) return end(entry, "");
+		if (entry.job.prepare) entry.job.prepare();
 	}
 	catch (const std::exception& e)
 	{
@@ -153,6 +184,10 @@ void JobPool::collect()
 		if (now_s() - entry.begin_s > kTimeLimit_s) kill(entry.pid, SIGKILL);
 		int status = 0;
 		if (waitpid(entry.pid, &status, WNOHANG) != entry.pid) continue;
+		entry.took_s = now_s() - entry.begin_s;
+		entry.pid = 0;
+		// Ctrl-C on a terminal reaches the programs as well: one that ends for that has not failed.
+		if (status != 0 && interrupted()) return;
 		std::string error;
 		try
 		{
@@ -171,16 +206,12 @@ void JobPool::collect()
 
 void JobPool::end(Entry& entry, const std::string& error)
 {
-	for (const int pid : load_)
-	{
-		kill(pid, SIGKILL);
-		waitpid(pid, nullptr, 0);
-	}
+	for (const int pid : load_) stop(pid);
 	load_.clear();
 	entry.error = error;
 	entry.state = State::done;
 	++ended_;
-	report(entry);
+	if (hooks_.ended) hooks_.ended(report(&entry));
 }
 
 size_t JobPool::running() const
@@ -195,36 +226,61 @@ bool JobPool::allDone() const
 
 void JobPool::stopAll()
 {
-	for (const int pid : load_) kill(pid, SIGKILL);
+	for (const int pid : load_) stop(pid);
+	load_.clear();
 	for (Entry& entry : entries_)
 	{
 		if (entry.state != State::running) continue;
-		kill(entry.pid, SIGKILL);
-		waitpid(entry.pid, nullptr, 0);
+		if (entry.pid > 0) stop(entry.pid);
+		entry.state = State::waiting;
 	}
 }
 
-void JobPool::report(const Entry& entry) const
+/** The pace of what has been done, for what has not: a program that runs counts with what it should still need. */
+double JobPool::left_s() const
 {
-	if (!hooks_.ended) return;
-	double all_s = 0, done_s = 0, worked_s = 0;
+	double cost_s = 0, took_s = 0;
 	for (const Entry& e : entries_)
 	{
-		all_s += e.job.cost_s;
-		if (e.state != State::done) continue;
-		done_s += e.job.cost_s;
-		if (e.begin_s > 0) worked_s += e.job.cost_s;
+		if (e.state != State::done || e.took_s <= 0) continue;
+		cost_s += e.job.cost_s;
+		took_s += e.took_s;
 	}
+	if (allDone()) return 0;
+	if (cost_s <= 0) return -1;
+	const double pace = took_s / cost_s;
+	double left_s = 0;
+	for (const Entry& e : entries_)
+		if (e.state == State::waiting)
+			left_s += pace * e.job.cost_s;
+		else if (e.state == State::running)
+			left_s += std::max(0.0, pace * e.job.cost_s - (now_s() - e.begin_s));
+	return left_s / static_cast<double>(parallel_);
+}
+
+/** @param entry that has ended, or runs; may be null. */
+JobReport JobPool::report(const Entry* entry) const
+{
 	JobReport report;
-	report.label = entry.job.label;
-	report.error = entry.error;
-	report.took_s = entry.begin_s > 0 ? now_s() - entry.begin_s : 0;
+	if (entry != nullptr)
+	{
+		report.label = entry->job.label;
+		report.error = entry->error;
+		report.took_s = entry->took_s;
+	}
 	report.done = ended_;
 	report.total = entries_.size();
 	report.elapsed_s = now_s() - begin_s_;
-	report.fraction = all_s > 0 ? done_s / all_s : 1;
-	if (worked_s > 0) report.left_s = report.elapsed_s / worked_s * (all_s - done_s);
-	hooks_.ended(report);
+	report.left_s = left_s();
+	return report;
+}
+
+void JobPool::tellWhatRuns() const
+{
+	if (!hooks_.running) return;
+	const auto runs = [](const Entry& e) { return e.state == State::running; };
+	const auto first = std::find_if(entries_.begin(), entries_.end(), runs);
+	hooks_.running(report(first == entries_.end() ? nullptr : &*first));
 }
 
 std::string toLine(const JobReport& report)

@@ -1,34 +1,52 @@
 #include <viwo/core/Error.h>
 #include <viwo/experiments/LidarTruth.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <map>
+
+#include "Figures.h"
 
 namespace viwo::experiments
 {
 namespace
 {
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double xyAgainst(const Trajectory& truth, const DriveErrors& drive)
+/** Against the trajectory from the scans, x-y, m. */
+double ateOf(const DriveErrors& run, const Trajectory& lidar)
 {
-	if (!drive.problem.empty()) return kNever;
-	return evaluate(truth, Trajectory::loadTum(drive.folder + "/trajectory.tum"), EvaluationOptions()).ate_xy_m;
+	if (run.open) return kOpen;
+	if (!run.problem.empty()) return kFailed;
+	return evaluate(lidar, *run.estimate, EvaluationOptions()).ate_xy_m;
 }
 
-LidarDrive lidarDrive(const Runner& runner, const std::string& sequence, uint64_t seed)
+/** @param seed index in the lists of the drives. @throws Error where nothing can be compared. */
+void judge(const Outcome& outcome, const std::vector<DriveResult>& drives, size_t seed, LidarDrive& drive)
 {
-	const Outcome outcome = runner.truthOutcome(sequenceLog(sequence, seed));
+	const Trajectory lidar = outcome.trajectory();
+	const TrajectoryErrors own = evaluate(outcome.truth(), lidar, EvaluationOptions());
+	drive.truth_xy_m = own.ate_xy_m;
+	drive.truth_yaw_deg = own.yaw_rmse_deg;
+	for (const DriveResult& result : drives)
+		if (result.sequence == drive.sequence && result.variant.overrides.empty())
+			drive.ate_xy_m[result.variant.name] = ateOf(result.seeds[seed], lidar);
+}
+
+LidarDrive lidarDrive(const Outcome& outcome, const std::string& sequence, const std::vector<DriveResult>& drives, const Request& request,
+                      size_t seed)
+{
 	LidarDrive drive;
 	drive.sequence = sequence;
-	drive.seed = seed;
+	drive.seed = request.seeds[seed];
 	drive.problem = outcome.error;
+	drive.open = outcome.open;
 	drive.folder = outcome.folder;
 	if (outcome.failed()) return drive;
-	const TrajectoryErrors errors = outcome.errors();
-	drive.truth_xy_m = errors.ate_xy_m;
-	drive.truth_yaw_deg = errors.yaw_rmse_deg;
+	try
+	{
+		judge(outcome, drives, seed, drive);
+	}
+	catch (const Error& e)
+	{
+		drive.problem = e.what();
+	}
 	return drive;
 }
 
@@ -36,19 +54,8 @@ double medianOf(const std::vector<LidarDrive>& drives, const std::string& sequen
 {
 	std::vector<double> values;
 	for (const LidarDrive& drive : drives)
-		if (drive.sequence == sequence) values.push_back(drive.problem.empty() ? figure(drive) : kNever);
+		if (drive.sequence == sequence) values.push_back(drive.open ? kOpen : drive.problem.empty() ? figure(drive) : kFailed);
 	return median(values);
-}
-
-double ofMode(const LidarDrive& drive, const std::string& mode)
-{
-	const auto at = drive.ate_xy_m.find(mode);
-	return at == drive.ate_xy_m.end() ? kNever : at->second;
-}
-
-std::string cell(double value, int decimals)
-{
-	return std::isfinite(value) ? fixed(value, decimals) : "-";
 }
 }  // namespace
 
@@ -64,18 +71,8 @@ std::vector<LidarDrive> lidarDrives(const Runner& runner, const Request& request
 	std::vector<LidarDrive> list;
 	if (request.tables.count(1) == 0) return list;
 	for (const std::string& sequence : request.sequences)
-		for (size_t i = 0; i < request.seeds.size(); ++i)
-		{
-			LidarDrive drive = lidarDrive(runner, sequence, request.seeds[i]);
-			if (drive.problem.empty())
-			{
-				const Trajectory truth = Trajectory::loadTum(drive.folder + "/trajectory.tum");
-				for (const DriveResult& result : drives)
-					if (result.sequence == sequence && result.variant.overrides.empty())
-						drive.ate_xy_m[result.variant.name] = xyAgainst(truth, result.seeds[i]);
-			}
-			list.push_back(std::move(drive));
-		}
+		for (size_t seed = 0; seed < request.seeds.size(); ++seed)
+			list.push_back(lidarDrive(runner.truthOutcome(sequenceLog(sequence, request.seeds[seed])), sequence, drives, request, seed));
 	return list;
 }
 
@@ -86,22 +83,20 @@ Table table1Lidar(const std::vector<LidarDrive>& drives)
 	columns.push_back({"lidar's own error x-y", "m"});
 	columns.push_back({"and in yaw", "deg"});
 	Table table(columns);
-	std::string last;
-	for (const LidarDrive& drive : drives)
+	for (const std::string& sequence : sequencesOf(drives))
 	{
-		if (drive.sequence == last) continue;
-		last = drive.sequence;
-		std::vector<std::string> cells{last};
+		std::vector<std::string> cells{sequence};
 		std::vector<double> figures;
 		for (const Variant& mode : modes())
 		{
-			figures.push_back(medianOf(drives, last, [&](const LidarDrive& d) { return ofMode(d, mode.name); }));
+			figures.push_back(medianOf(drives, sequence, [&](const LidarDrive& d) { return d.ate_xy_m.at(mode.name); }));
 			cells.push_back(cell(figures.back(), 3));
 		}
-		const size_t best = static_cast<size_t>(std::min_element(figures.begin(), figures.end()) - figures.begin());
-		cells.push_back(cell(medianOf(drives, last, [](const LidarDrive& d) { return d.truth_xy_m; }), 3));
-		cells.push_back(cell(medianOf(drives, last, [](const LidarDrive& d) { return d.truth_yaw_deg; }), 2));
-		table.addRow(cells, std::isfinite(figures[best]) ? std::set<size_t>{1 + best} : std::set<size_t>{});
+		std::set<size_t> bold;
+		for (const size_t mode : smallest(figures, 3)) bold.insert(1 + mode);
+		cells.push_back(cell(medianOf(drives, sequence, [](const LidarDrive& d) { return d.truth_xy_m; }), 3));
+		cells.push_back(cell(medianOf(drives, sequence, [](const LidarDrive& d) { return d.truth_yaw_deg; }), 2));
+		table.addRow(cells, bold);
 	}
 	return table;
 }

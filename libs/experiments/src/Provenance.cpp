@@ -99,6 +99,7 @@ Json toJson(const Provenance& provenance)
 	json["program"] = "viwo-experiments " + provenance.version;
 	json["build"] = provenance.build;
 	json["date"] = provenance.date;
+	json["complete"] = provenance.interruption.empty();
 	json["sequences"] = provenance.request.sequences;
 	json["seeds"] = provenance.request.seeds;
 	json["configuration"] = provenance.configuration;

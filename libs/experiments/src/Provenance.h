@@ -18,6 +18,7 @@ struct Provenance
 	std::string date;        //!< UTC
 	Request request;
 	std::string configuration;  //!< of the estimator: the one set for all sequences, as an INI file
+	std::string interruption;   //!< ExperimentResult::interruption
 };
 
 /** @throws Error when a program is not there. */

@@ -6,6 +6,7 @@
 #include <viwo/evaluation/TrajectoryPictures.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "TextFiles.h"
@@ -18,7 +19,7 @@ std::string seedsText(const std::vector<uint64_t>& seeds)
 {
 	std::string text;
 	for (const uint64_t seed : seeds) text += (text.empty() ? "" : ", ") + std::to_string(seed);
-	return text;
+	return (seeds.size() == 1 ? "seed " : "seeds ") + text;
 }
 
 void introduce(HtmlPage& page, const Request& request, const Provenance& provenance)
@@ -28,10 +29,11 @@ void introduce(HtmlPage& page, const Request& request, const Provenance& provena
 	    "The replicas have the lengths, motions and kinds of places of "
 	    "the paper's sequences, not its recordings: figures of the paper stand beside ours as a measure of size, not as a comparison on "
 	    "the same data.");
-	page.paragraph("viwo " + provenance.version + " (build " + provenance.build + "), " + provenance.date + ", seeds " +
+	page.paragraph("viwo " + provenance.version + " (build " + provenance.build + "), " + provenance.date + ", " +
 	               seedsText(request.seeds) +
 	               ". One configuration of the estimator, one robot and one set of sensor errors for all sequences. Figures are medians "
 	               "over the seeds; alignment by rotation and translation.");
+	if (!provenance.interruption.empty()) page.paragraph(provenance.interruption);
 }
 
 /** Only modes: ablations have a table of their own. */
@@ -45,7 +47,9 @@ void addTable1(HtmlPage& page, const std::vector<DriveResult>& drives)
 	page.heading("Table 1: accuracy of whole drives");
 	page.table(table1(drives),
 	           "RMSE of the absolute trajectory error in metres; the best of our three modes is bold. The paper's vio is VINS-Mono. A "
-	           "drive along one line leaves the roll about it to the alignment: there, errors of wheels alone in x-y may appear as z.");
+	           "drive along one line leaves the roll about it to the alignment: there, errors of wheels alone in x-y may appear as z. Last "
+	           "column: z of "
+	           "viwo where yaw and translation alone are aligned, so that a tilt remains an error.");
 	BarChart chart{"ATE x-y-z", "RMSE (m)", {}, {{"vio", {}}, {"wheel", {}}, {"viwo", {}}, {"paper's system", {}}}, 2};
 	for (const DriveResult& result : drives)
 	{
@@ -61,20 +65,24 @@ void addTable1(HtmlPage& page, const std::vector<DriveResult>& drives)
 	page.figure(toSvg(chart, PlotColours::page), "RMSE of the ATE x-y-z in metres, by sequence.");
 }
 
-/** What the paper's way of judging says, and Figure 5: the maps. */
-void addLidar(HtmlPage& page, const Request& request, const std::vector<LidarDrive>& lidar)
+/** What the paper's way of judging says. */
+void addLidar(HtmlPage& page, const std::vector<LidarDrive>& lidar)
 {
 	page.heading("Table 1 against the ground truth from LiDAR");
 	page.table(table1Lidar(lidar),
 	           "RMSE of the absolute trajectory error in the plane in metres, as in the paper against a trajectory made from the scans "
 	           "(viwo-groundtruth); that trajectory's own error against the exact truth stands beside it.");
+}
+
+void addFigure5(HtmlPage& page, const Request& request, const std::vector<LidarDrive>& lidar)
+{
 	page.heading("Figure 5: grid maps");
 	page.paragraph("Seed " + std::to_string(request.seeds.front()) +
 	               ". Black: occupied, white: free, grey: not seen; the way is green where the scans hold it, orange where a direction is "
 	               "left to odometry.");
 	page.beginRow();
 	for (const LidarDrive& drive : lidar)
-		if (drive.seed == request.seeds.front() && drive.problem.empty())
+		if (drive.seed == request.seeds.front() && std::filesystem::exists(drive.folder + "/map.png") && drive.problem.empty())
 			page.image(readFile(drive.folder + "/map.png"), "image/png",
 			           drive.sequence + ": grid map from LiDAR, cells of 5 cm, scale in metres.");
 	page.endRow();
@@ -89,29 +97,45 @@ void addTrajectories(HtmlPage& page, const std::string& sequence, const std::vec
 	{
 		if (result.sequence != sequence || !isMode(result) || !result.seeds.front().problem.empty()) continue;
 		truth = result.seeds.front().ground_truth;
-		estimates.push_back({result.variant.name, Trajectory::loadTum(result.seeds.front().folder + "/trajectory.tum")});
+		estimates.push_back({result.variant.name, *result.seeds.front().estimate});
 	}
 	if (estimates.empty()) return;
 	const TrajectoryPictures pictures = trajectoryPictures(Trajectory::loadTum(truth), estimates, EvaluationOptions(), PlotColours::page);
-	const std::string which = sequence + " (" + paperSequence(sequence).motion + ")";
-	page.figure(pictures.paths, which + " from above, in metres: our three modes over the truth.");
-	page.figure(pictures.error_over_time, which + ": distance from the truth in metres, over time in seconds.");
-	page.figure(pictures.drift_over_distance, which + ": relative error of pieces of the path, per cent of their length.");
+	page.subheading(sequence + ": " + paperSequence(sequence).motion);
+	page.beginRow();
+	page.figure(pictures.paths, sequence + " from above, in metres: our three modes over the truth (reference). The circle is the start.",
+	            true);
+	page.figure(pictures.error_over_time, sequence + ": distance from the truth in metres, over time in seconds.");
+	page.figure(pictures.drift_over_distance, sequence + ": relative error of pieces of the path, per cent of their length.");
+	page.endRow();
 }
 
 void addFigure6(HtmlPage& page, const Request& request, const std::vector<DriveResult>& drives)
 {
 	page.heading("Figure 6: trajectories");
 	page.paragraph("Seed " + std::to_string(request.seeds.front()) + ".");
-	for (const std::string& sequence : request.sequences)
-	{
-		page.beginRow();
-		addTrajectories(page, sequence, drives);
-		page.endRow();
-	}
+	for (const std::string& sequence : request.sequences) addTrajectories(page, sequence, drives);
 }
 
 void addStarts(HtmlPage& page, const Request& request, const std::vector<Start>& starts)
+{
+	if (request.tables.count(2) != 0)
+	{
+		page.heading("Table 2: time to the start");
+		page.table(table2(starts),
+		           "Seconds from the first image after the start. In parentheses: the robot stands or turns on the spot there; these count "
+		           "for the first metric pose only.");
+	}
+	if (request.tables.count(3) != 0)
+	{
+		page.heading("Table 3: accuracy after the start");
+		page.table(table3(starts),
+		           "RMSE of the ATE x-y-z in metres over 30 s from where both methods have started; a dash where the trajectory does not "
+		           "converge (ATE above 5 % of the length, or scale off by more than 10 %).");
+	}
+}
+
+void addFigure7(HtmlPage& page, const std::vector<Start>& starts)
 {
 	BarChart times{"Average time to the start",
 	               "time (s)",
@@ -133,20 +157,6 @@ void addStarts(HtmlPage& page, const Request& request, const std::vector<Start>&
 			times.series[i++].values.push_back(value);
 		i = 0;
 		for (const double value : {a.vins_rmse_m, a.rmse_m, paper.own_rmse_m.average}) errors.series[i++].values.push_back(value);
-	}
-	if (request.tables.count(2) != 0)
-	{
-		page.heading("Table 2: time to the start");
-		page.table(table2(starts),
-		           "Seconds from the first image after the start. In parentheses: the robot stands or turns on the spot there; these count "
-		           "for the first metric pose only.");
-	}
-	if (request.tables.count(3) != 0)
-	{
-		page.heading("Table 3: accuracy after the start");
-		page.table(table3(starts),
-		           "RMSE of the ATE x-y-z in metres over 30 s from where both methods have started; a dash where the trajectory does not "
-		           "converge (ATE above 5 % of the length, or scale off by more than 10 %).");
 	}
 	page.heading("Figure 7: starts");
 	page.beginRow();
@@ -182,7 +192,7 @@ std::string reportHtml(const Findings& f)
 	const bool with_table1 = f.request.tables.count(1) != 0;
 	introduce(page, f.request, f.provenance);
 	if (with_table1) addTable1(page, f.drives);
-	if (!f.lidar.empty()) addLidar(page, f.request, f.lidar);
+	if (!f.lidar.empty()) addLidar(page, f.lidar);
 	if (!f.starts.empty()) addStarts(page, f.request, f.starts);
 	if (f.request.ablations)
 	{
@@ -197,11 +207,10 @@ std::string reportHtml(const Findings& f)
 		    "RMSE of the ATE x-y-z of viwo in centimetres, of drives that are simulated with one source of error alone, and with all "
 		    "others.");
 	}
-	if (with_table1)
-	{
-		addFigure6(page, f.request, f.drives);
-		addStages(page, f.drives);
-	}
+	if (!f.lidar.empty()) addFigure5(page, f.request, f.lidar);
+	if (with_table1) addFigure6(page, f.request, f.drives);
+	if (!f.starts.empty()) addFigure7(page, f.starts);
+	if (with_table1) addStages(page, f.drives);
 	if (!f.drives.empty())
 	{
 		page.heading("Every run");

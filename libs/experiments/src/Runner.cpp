@@ -55,19 +55,25 @@ std::string statusWithoutPose(const std::string& folder)
 	if (!whole || !summary.at("first_pose_s").is_null()) return {};
 	return status + " after " + std::to_string(summary.at("frames").get<int>()) + " frames";
 }
+
+/** The trajectory, or the word that there is none. */
+bool hasResult(const std::string& folder)
+{
+	return fs::exists(folder + "/trajectory.tum") || !statusWithoutPose(folder).empty();
+}
+
 /** A job that fills a folder, and has nothing to do where that is whole and of the same content.
  *  @param content empty: nothing is kept. @param begun called with the empty folder; may be empty. */
 Job folderJob(const std::string& folder, const std::string& content, const std::function<void()>& begun = {})
 {
 	const std::string inputs = folder + "/inputs.txt";
 	Job job;
+	if (!content.empty()) job.there = [=] { return holds(inputs, content) && hasResult(folder); };
 	job.prepare = [=]
 	{
-		if (!content.empty() && holds(inputs, content)) return false;
 		fs::remove_all(folder);
 		fs::create_directories(folder);
 		if (begun) begun();
-		return true;
 	};
 	job.log_stem = folder + "/program";
 	if (!content.empty()) job.succeeded = [=] { writeAtomically(inputs, content); };
@@ -164,22 +170,35 @@ void Runner::wantTruth(const LogRecipe& log)
 
 Outcome Runner::truthOutcome(const LogRecipe& log) const
 {
-	return {pool_.error(truths_.at(log.name)), truthFolderOf(log), cache_.groundTruth(log)};
+	return outcomeOf(truths_.at(log.name), truthFolderOf(log), log);
 }
 
-void Runner::execute(size_t parallel, const JobHooks& hooks)
+bool Runner::execute(size_t parallel, const JobHooks& hooks)
 {
-	pool_.run(std::max<size_t>(1, parallel), hooks);
+	return pool_.run(parallel, hooks);
+}
+
+Outcome Runner::outcomeOf(size_t job, const std::string& folder, const LogRecipe& log) const
+{
+	Outcome outcome{pool_.error(job), folder, cache_.groundTruth(log)};
+	outcome.open = pool_.open(job);
+	if (outcome.open) outcome.error = "not measured yet";
+	return outcome;
 }
 
 Outcome Runner::outcome(const RunRecipe& recipe) const
 {
-	Outcome outcome{pool_.error(runs_.at(recipe.name())), folderOf(recipe), cache_.groundTruth(recipe.log)};
+	Outcome outcome = outcomeOf(runs_.at(recipe.name()), folderOf(recipe), recipe.log);
 	if (outcome.failed()) return outcome;
-	if (const std::string status = statusWithoutPose(outcome.folder); !status.empty())
+	try
 	{
-		outcome.no_pose = true;
-		outcome.error = "no pose: the estimator is still " + status;
+		const std::string status = statusWithoutPose(outcome.folder);
+		outcome.no_pose = !status.empty();
+		if (outcome.no_pose) outcome.error = "no pose: the estimator is still " + status;
+	}
+	catch (const std::exception& e)
+	{
+		outcome.error = e.what();
 	}
 	return outcome;
 }

@@ -1,8 +1,12 @@
+#include <unistd.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/experiments/SimulationCache.h>
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
+#include "FolderLock.h"
 #include "TextFiles.h"
 
 namespace viwo::experiments
@@ -12,6 +16,60 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kContentFile = "/inputs.txt";
+
+bool isWhole(const std::string& folder, const LogRecipe& recipe)
+{
+	return holds(folder + kContentFile, recipe.content) && fs::exists(folder + "/log.rawlog") &&
+	       fs::exists(folder + "/log_ground_truth.tum");
+}
+
+/** A folder that is being filled, beside the place that it will have, under a name that no other program's has. While it is, it is locked:
+ * one without a lock was left behind by a program that was killed. */
+class UnfinishedFolder
+{
+   public:
+	explicit UnfinishedFolder(std::string final_path) : final_path_(std::move(final_path))
+	{
+		static int count = 0;
+		path_ = final_path_ + kPart + std::to_string(getpid()) + "-" + std::to_string(++count);
+	}
+	const std::string& path() const { return path_; }
+
+	void create()
+	{
+		fs::create_directories(fs::path(path_).parent_path());
+		removeLeftovers();
+		fs::create_directory(path_);
+		lock_ = std::make_unique<FolderLock>(path_);
+	}
+
+	void finish()
+	{
+		fs::rename(path_, final_path_);
+		lock_.reset();
+	}
+
+	void remove()
+	{
+		fs::remove_all(path_);
+		lock_.reset();
+	}
+
+   private:
+	static constexpr const char* kPart = ".part-";
+
+	void removeLeftovers() const
+	{
+		std::vector<fs::path> found;
+		for (const auto& entry : fs::directory_iterator(fs::path(path_).parent_path()))
+			if (entry.path().string().rfind(final_path_ + kPart, 0) == 0) found.push_back(entry.path());
+		for (const fs::path& folder : found)
+			if (const FolderLock lock(folder.string()); !lock.taken()) fs::remove_all(folder);
+	}
+
+	std::string final_path_, path_;
+	std::unique_ptr<FolderLock> lock_;
+};
 }  // namespace
 
 SimulationCache::SimulationCache(std::string folder, std::string programs) : folder_(std::move(folder)), programs_(std::move(programs)) {}
@@ -23,28 +81,26 @@ std::string SimulationCache::folderOf(const LogRecipe& recipe) const
 
 Job SimulationCache::job(const LogRecipe& recipe) const
 {
-	const std::string folder = folderOf(recipe), making = folder + ".part";
+	const std::string folder = folderOf(recipe);
+	const auto making = std::make_shared<UnfinishedFolder>(folder);
 	Job job;
 	job.label = (recipe.program == "viwo-sim" ? "simulate " : "import ") + recipe.name;
-	job.prepare = [recipe, folder, making]
-	{
-		if (recipe.cached && holds(folder + kContentFile, recipe.content)) return false;
-		fs::remove_all(making);
-		fs::remove_all(folder);
-		fs::create_directories(making);
-		return true;
-	};
+	job.there = [=] { return recipe.cached && isWhole(folder, recipe); };
+	job.prepare = [=] { making->create(); };
 	job.command = {programs_ + "/" + recipe.program};
 	if (recipe.made_of) job.command.push_back(rawlog(*recipe.made_of));
 	job.command.insert(job.command.end(), recipe.arguments.begin(), recipe.arguments.end());
 	if (recipe.same_images) job.command.insert(job.command.end(), {"--images-from", folderOf(*recipe.same_images) + "/log_Images"});
-	job.command.insert(job.command.end(), {"-o", making + "/log.rawlog"});
-	job.log_stem = making + "/program";
+	job.command.insert(job.command.end(), {"-o", making->path() + "/log.rawlog"});
+	job.log_stem = making->path() + "/program";
 	job.cost_s = recipe.cost_s;
-	job.succeeded = [recipe, folder, making]
+	job.succeeded = [=]
 	{
-		writeAtomically(making + kContentFile, recipe.content);
-		fs::rename(making, folder);
+		writeAtomically(making->path() + kContentFile, recipe.content);
+		// Another measurement with the same cache may have been faster: its programs may be reading that one.
+		if (recipe.cached && isWhole(folder, recipe)) return making->remove();
+		fs::remove_all(folder);
+		making->finish();
 	};
 	return job;
 }

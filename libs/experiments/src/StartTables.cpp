@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "Figures.h"
+
 namespace viwo::experiments
 {
 namespace
@@ -14,33 +16,40 @@ using Figure = std::function<double(const Start&)>;
 
 constexpr size_t kColumns = 7;  // 30 to 210 s
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<std::string> sequencesOf(const std::vector<Start>& starts)
-{
-	std::vector<std::string> names;
-	for (const Start& start : starts)
-		if (std::find(names.begin(), names.end(), start.sequence) == names.end()) names.push_back(start.sequence);
-	return names;
-}
+constexpr int kTimeDecimals = 2, kRmseDecimals = 3;
 
 /** One row of Table 2 or 3: medians over the seeds at each start time, and their average. */
 struct Row
 {
 	std::vector<double> values;
 	std::vector<bool> counts;  //!< into the average
+	std::vector<bool> open;    //!< runs have not been done
 	double average = kNone;
+
+	bool whole() const
+	{
+		return std::none_of(open.begin(), open.end(), [](bool o) { return o; });
+	}
+	/** Starts that count and have no figure. */
+	size_t dashes() const
+	{
+		size_t n = 0;
+		for (size_t i = 0; i < values.size(); ++i) n += counts[i] && std::isnan(values[i]) ? 1 : 0;
+		return n;
+	}
 };
 
 /** @param everywhere starts that do not drive count, too. */
 Row rowOf(const std::vector<Start>& starts, const std::string& sequence, const Figure& figure, bool everywhere)
 {
 	std::map<double, std::vector<double>> by_time;
-	std::map<double, bool> driving;
+	std::map<double, bool> driving, open;
 	for (const Start& start : starts)
 	{
 		if (start.sequence != sequence) continue;
 		by_time[start.start_s].push_back(figure(start));
 		driving[start.start_s] = start.driving;
+		open[start.start_s] = open[start.start_s] || start.open;
 	}
 	Row row;
 	double sum = 0;
@@ -49,29 +58,29 @@ Row rowOf(const std::vector<Start>& starts, const std::string& sequence, const F
 	{
 		row.values.push_back(median(values));
 		row.counts.push_back(everywhere || driving[start_s]);
+		row.open.push_back(open[start_s]);
 		if (!row.counts.back() || std::isnan(row.values.back())) continue;
 		sum += row.values.back();
 		++count;
 	}
-	if (count > 0) row.average = sum / count;
+	if (count > 0 && row.whole()) row.average = sum / count;
 	return row;
 }
 
-/** Fewer dashes are better, whatever the average of the rest; then the smaller average. */
-bool better(const Row& a, const Row& b)
+/** Which of two rows are the better one: fewer dashes, whatever the average of the rest; then the smaller average. Both where they print
+ * the same, none while runs are open. */
+std::pair<bool, bool> better(const Row& a, const Row& b, int decimals)
 {
-	const auto dashes = [](const Row& row)
-	{
-		size_t n = 0;
-		for (size_t i = 0; i < row.values.size(); ++i) n += row.counts[i] && std::isnan(row.values[i]) ? 1 : 0;
-		return n;
-	};
-	return dashes(a) != dashes(b) ? dashes(a) < dashes(b) : a.average < b.average;
+	if (!a.whole() || !b.whole()) return {false, false};
+	if (a.dashes() != b.dashes()) return {a.dashes() < b.dashes(), b.dashes() < a.dashes()};
+	const std::set<size_t> best = smallest({a.average, b.average}, decimals);
+	return {best.count(0) != 0, best.count(1) != 0};
 }
 
 Row paperRow(const PaperRow& printed)
 {
-	return {printed.values, std::vector<bool>(printed.values.size(), true), printed.average};
+	const size_t n = printed.values.size();
+	return {printed.values, std::vector<bool>(n, true), std::vector<bool>(n, false), printed.average};
 }
 
 Table emptyTable(const char* unit)
@@ -89,10 +98,12 @@ void add(Table& table, const std::string& sequence, const std::string& name, con
 	{
 		if (i >= row.values.size())
 			cells.emplace_back("");
+		else if (row.open[i])
+			cells.emplace_back(kOpenMark);
 		else
 			cells.push_back(row.counts[i] ? fixed(row.values[i], decimals) : "(" + fixed(row.values[i], decimals) + ")");
 	}
-	cells.push_back(fixed(row.average, decimals));
+	cells.push_back(row.whole() ? fixed(row.average, decimals) : kOpenMark);
 	table.addRow(cells, bold ? std::set<size_t>{cells.size() - 1} : std::set<size_t>{});
 }
 
@@ -131,9 +142,10 @@ Table table2(const std::vector<Start>& starts)
 	{
 		const PaperSequence& paper = paperSequence(sequence);
 		const Row vins = rowOf(starts, sequence, vinsTime, false), own = rowOf(starts, sequence, ownTime, false);
-		add(table, sequence, "VINS-Mono's method", vins, 2, better(vins, own));
-		add(table, "", "ours, vision-aligned", own, 2, !better(vins, own));
-		add(table, "", "ours, first metric pose", rowOf(starts, sequence, firstPose, true), 2, false);
+		const auto [vins_better, own_better] = better(vins, own, kTimeDecimals);
+		add(table, sequence, "VINS-Mono's method", vins, kTimeDecimals, vins_better);
+		add(table, "", "ours, vision-aligned", own, kTimeDecimals, own_better);
+		add(table, "", "ours, first metric pose", rowOf(starts, sequence, firstPose, true), kTimeDecimals, false);
 		add(table, "", "paper, VINS-Mono", paperRow(paper.vins_time_s), 2, false);
 		add(table, "", "paper, their system", paperRow(paper.own_time_s), 2, false);
 	}
@@ -147,8 +159,9 @@ Table table3(const std::vector<Start>& starts)
 	{
 		const PaperSequence& paper = paperSequence(sequence);
 		const Row vins = rowOf(starts, sequence, vinsRmse, true), own = rowOf(starts, sequence, ownRmse, true);
-		add(table, sequence, "VINS-Mono's method", vins, 3, better(vins, own));
-		add(table, "", "ours", own, 3, !better(vins, own));
+		const auto [vins_better, own_better] = better(vins, own, kRmseDecimals);
+		add(table, sequence, "VINS-Mono's method", vins, kRmseDecimals, vins_better);
+		add(table, "", "ours", own, kRmseDecimals, own_better);
 		add(table, "", "paper, VINS-Mono", paperRow(paper.vins_rmse_m), 2, false);
 		add(table, "", "paper, their system", paperRow(paper.own_rmse_m), 2, false);
 	}
@@ -169,9 +182,12 @@ Table startRuns(const std::vector<Start>& starts)
 	             {"VINS scale", ""},
 	             {"ours scale", ""}});
 	for (const Start& s : starts)
+	{
+		if (s.open) continue;
 		table.addRow({s.sequence, std::to_string(s.seed), fixed(s.start_s, 0), s.driving ? "yes" : "no", fixed(s.vins.aligned_s, 2),
 		              fixed(s.ours.aligned_s, 2), fixed(s.ours.first_pose_s, 2), fixed(s.vins.rmse_m, 4), fixed(s.ours.rmse_m, 4),
 		              fixed(s.vins.scale, 3), fixed(s.ours.scale, 3)});
+	}
 	return table;
 }
 
@@ -179,12 +195,11 @@ Json startsJson(const std::vector<Start>& starts)
 {
 	Json rows = Json::array();
 	for (const Start& s : starts)
-		rows.push_back({{"sequence", s.sequence},
-		                {"seed", s.seed},
-		                {"start_s", s.start_s},
-		                {"driving", s.driving},
-		                {"ours", runJson(s.ours)},
-		                {"vins", runJson(s.vins)}});
+	{
+		Json row{{"sequence", s.sequence}, {"seed", s.seed}, {"start_s", s.start_s}, {"measured", !s.open}};
+		if (!s.open) row.update({{"driving", s.driving}, {"ours", runJson(s.ours)}, {"vins", runJson(s.vins)}});
+		rows.push_back(row);
+	}
 	Json averages = Json::array();
 	for (const StartAverages& a : startAverages(starts))
 	{

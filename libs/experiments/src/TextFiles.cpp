@@ -21,6 +21,14 @@ bool holds(const std::string& path, const std::string& content)
 	return std::filesystem::exists(path) && readFile(path) == content;
 }
 
+void createFolder(const std::string& path)
+{
+	std::error_code error;
+	std::filesystem::create_directories(path, error);
+	if (error || !std::filesystem::is_directory(path))
+		throw Error(path + ": cannot create this folder: " + (error ? error.message() : "it is a file") + "; give another");
+}
+
 std::string hashOf(const std::string& content)
 {
 	uint64_t hash = 0xcbf29ce484222325ULL;

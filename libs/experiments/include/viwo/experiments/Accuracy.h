@@ -5,7 +5,11 @@
 #include <viwo/experiments/Request.h>
 #include <viwo/experiments/Runner.h>
 
-#include <map>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 /** Table 1 of the paper and its ablations: the error of whole drives. */
 namespace viwo::experiments
@@ -30,12 +34,11 @@ struct DriveErrors
 	uint64_t seed = 0;
 	std::string problem;  //!< why there are no figures; empty: there are
 	bool failed = false;  //!< the program itself, not the estimator
+	bool open = false;    //!< not measured yet
 	TrajectoryErrors se3, yaw;
-	std::string folder;        //!< of the run
-	std::string ground_truth;  //!< path
-
-	/** Infinite without figures. */
-	double xyz_m() const;
+	std::string folder;                          //!< of the run
+	std::string ground_truth;                    //!< path
+	std::shared_ptr<const Trajectory> estimate;  //!< null where there is none
 };
 
 /** All seeds of one variant on one sequence. */
@@ -45,16 +48,20 @@ struct DriveResult
 	Variant variant;
 	std::vector<DriveErrors> seeds;
 
-	/** Of figure(errors) over the seeds; infinite where a run has none. */
+	/** Of figure(errors) over the seeds; a run without counts as infinite. NaN while a run is open. */
 	double median(const std::function<double(const DriveErrors&)>& figure) const;
 };
 
+/** @param truth read when it is first needed: all runs of a drive have the same. */
+DriveErrors driveErrors(const Outcome& outcome, uint64_t seed, std::optional<Trajectory>& truth);
+
 void planDrives(Runner& runner, const Request& request);
 
-/** In the order of sequences, then variants. @pre planned and executed. */
+/** In the order of sequences, then variants. @pre planned, and execute() was called. */
 std::vector<DriveResult> driveResults(const Runner& runner, const Request& request);
 
-/** Medians over the seeds, the paper's figures beside them; the best of our three in bold. */
+/** Medians over the seeds, the paper's figures beside them; the best of our three in bold. Last column: z of viwo after alignment in yaw
+ * alone. */
 Table table1(const std::vector<DriveResult>& results);
 /** Every run: x-y, z, x-y-z, z after alignment in yaw alone. */
 Table table1Runs(const std::vector<DriveResult>& results);

@@ -21,7 +21,7 @@ struct ErrorSource
 /** All that the rig of the sequences does wrong. */
 const std::vector<ErrorSource>& errorSources();
 
-/** ATE x-y-z of mode viwo on one sequence, m; medians over the seeds. Infinite where a run has no figure. */
+/** ATE x-y-z of mode viwo on one sequence, m; medians over the seeds. Infinite where a run has no figure, NaN while one is open. */
 struct ErrorBudget
 {
 	std::string sequence;
@@ -32,7 +32,7 @@ struct ErrorBudget
 
 void planErrorBudget(Runner& runner, const Request& request);
 
-/** One for each sequence of Request::error_budget. @pre planned and executed. */
+/** One for each sequence of Request::error_budget. @pre planned, and execute() was called. */
 std::vector<ErrorBudget> errorBudgets(const Runner& runner, const Request& request);
 
 Table errorBudgetTable(const std::vector<ErrorBudget>& budgets);

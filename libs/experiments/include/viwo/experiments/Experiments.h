@@ -20,11 +20,13 @@ struct ExperimentResult
 	std::vector<std::string> files;     //!< written
 	std::vector<std::string> problems;  //!< runs that failed, a line each
 	std::string summary;                //!< the tables as text
+	std::string interruption;           //!< how much is not measured and how to go on, one line; empty: all is measured
 };
 
-/** Simulates what is missing, runs the modes, and writes table1.*, table2.*, table3.*, ablations.*, runs.* (as asked) and report.html.
- *  Logs and runs that are whole are kept: an interrupted measurement goes on where it was.
- *  @throws Error when interrupted, or when files cannot be written.
+/** Simulates what is missing, runs the modes, and writes table1.*, table1_lidar.*, table2.*, table3.*, ablations.*, error_budget.* (as
+ * asked) and report.html. Logs and runs that are whole are kept: an interrupted measurement goes on where it was. When interrupted, it
+ * writes what is measured, with marks for the rest.
+ *  @throws Error when files cannot be written, or when another measurement uses the same output.
  */
 ExperimentResult runExperiments(const Request& request, const ExperimentFolders& folders, size_t jobs, const JobHooks& hooks);
 }  // namespace viwo::experiments

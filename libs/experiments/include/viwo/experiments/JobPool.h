@@ -11,8 +11,10 @@ struct Job
 {
 	std::string label;
 	std::vector<size_t> after;  //!< jobs of the pool that must have succeeded
-	/** Called right before the program starts. @return false when there is nothing to do. */
-	std::function<bool()> prepare;
+	/** Whether its result is there already, so that there is nothing to do. May be empty. */
+	std::function<bool()> there;
+	/** Called right before the program starts. May be empty. */
+	std::function<void()> prepare;
 	std::vector<std::string> command;  //!< program and arguments
 	std::string log_stem;              //!< its output goes to <log_stem>.out and .err
 	/** Called when the program has ended with another status than 0. @return true when it did its work all the same. May be empty. */
@@ -24,15 +26,17 @@ struct Job
 	double cost_s = 1;    //!< about how long it takes: for the time that is left
 };
 
-/** How far a pool has come, told when a job ends. */
+/** How far a pool has come. */
 struct JobReport
 {
-	std::string label, error;  //!< of the job that has ended; no error: it succeeded
+	std::string label, error;  //!< of the job that has ended; no error: it succeeded. While jobs run: the label of the first of them
 	double took_s = 0;         //!< 0: there was nothing to do
 	size_t done = 0, total = 0;
 	double elapsed_s = 0;
-	double fraction = 0;  //!< of the cost that is done
-	double left_s = -1;   //!< negative while nothing has been done that tells
+	double left_s = -1;  //!< negative while nothing has been done that tells
+
+	/** Of the time, that has passed. */
+	double fraction() const { return left_s < 0 ? 0 : left_s > 0 ? elapsed_s / (elapsed_s + left_s) : 1; }
 };
 
 /** "[3/40] 01:20, 12:30 left  run seq05-s1-viwo (31.2 s)". */
@@ -41,8 +45,9 @@ std::string toLine(const JobReport& report);
 /** Hooks of a pool's run; each may be empty. */
 struct JobHooks
 {
-	std::function<bool()> interrupted;
-	std::function<void(const JobReport&)> ended;
+	std::function<bool()> interrupted = {};
+	std::function<void(const JobReport&)> ended = {};    //!< when a job ends
+	std::function<void(const JobReport&)> running = {};  //!< many times a second
 };
 
 /** Runs programs side by side, each as soon as those it waits for are done; the order of what is equally due is that of adding. */
@@ -53,12 +58,18 @@ class JobPool
 	size_t add(Job job);
 
 	/** Runs all jobs, at most `parallel` at a time. A job that fails fails those after it too.
-	 *  @throws Error when interrupted; programs that run are ended first.
+	 *  @return false when interrupted: programs that run are ended, and what has not come to its end is open.
 	 */
-	void run(size_t parallel, const JobHooks& hooks);
+	[[nodiscard]] bool run(size_t parallel, const JobHooks& hooks);
 
 	/** Why a job failed, one line; empty for one that succeeded. */
 	const std::string& error(size_t index) const { return entries_[index].error; }
+	/** Whether it has not come to its end. */
+	bool open(size_t index) const { return entries_[index].state != State::done; }
+
+	size_t size() const { return entries_.size(); }
+	/** How many are open. */
+	size_t open() const { return entries_.size() - ended_; }
 
    private:
 	enum class State
@@ -73,10 +84,12 @@ class JobPool
 		State state = State::waiting;
 		std::string error;
 		int pid = 0;
-		double begin_s = 0;
+		double begin_s = 0, took_s = 0;  //!< 0: there was nothing to do
 	};
 
-	void startDue(size_t parallel);
+	bool interrupted() const { return hooks_.interrupted && hooks_.interrupted(); }
+	void endWhatIsThere();
+	void startDue();
 	void start(Entry& entry);
 	void collect();
 	void end(Entry& entry, const std::string& error);
@@ -84,12 +97,14 @@ class JobPool
 	size_t running() const;
 	bool allDone() const;
 	void stopAll();
-	void report(const Entry& entry) const;
+	JobReport report(const Entry* entry) const;
+	void tellWhatRuns() const;
+	double left_s() const;
 
 	std::vector<Entry> entries_;
 	std::vector<int> load_;  //!< processes that keep the other cores busy
 	JobHooks hooks_;
-	size_t ended_ = 0;
+	size_t ended_ = 0, parallel_ = 1;
 	double begin_s_ = 0;
 };
 

@@ -29,8 +29,8 @@ std::vector<std::string> parseSequences(const std::string& text);
 /** "1,3", or "none". @throws Error for a table that is not 1, 2 or 3. */
 std::set<int> parseTables(const std::string& text);
 
-/** Seconds of computing an image second of a log: for the time that is left, which measures the machine itself. */
-constexpr double kRenderingCost = 0.6;
+/** Seconds of computing a second of a log: for the time that is left, which takes the machine's own pace into account. */
+constexpr double kRenderingCost = 0.3, kVisionCost = 0.12, kWheelCost = 0.002;
 
 /** The drive of a sequence. */
 SimulatedDrive sequenceDrive(const std::string& sequence);

@@ -20,6 +20,7 @@ struct Outcome
 	std::string folder;
 	std::string ground_truth;
 	bool no_pose = false;  //!< the program came to the end of the log, but the estimator did not start; `error` says so
+	bool open = false;     //!< interrupted before it was done; `error` says so
 
 	bool failed() const { return !error.empty(); }
 	std::string file(const std::string& name) const { return folder + "/" + name; }
@@ -56,10 +57,14 @@ class Runner
 	/** Asks for the trajectory and the map that viwo-groundtruth makes of a log's scans. */
 	void wantTruth(const LogRecipe& log);
 
-	/** @throws Error when interrupted. */
-	void execute(size_t parallel, const JobHooks& hooks);
+	/** @return false when interrupted: outcomes of what has not been done are open. */
+	[[nodiscard]] bool execute(size_t parallel, const JobHooks& hooks);
 
-	/** @pre wanted and executed. */
+	/** Programs that have not come to their end, and all that were asked for. */
+	size_t open() const { return pool_.open(); }
+	size_t size() const { return pool_.size(); }
+
+	/** @pre wanted, and execute() was called. */
 	Outcome outcome(const RunRecipe& recipe) const;
 	/** Of wantTruth(); `ground_truth` is the simulator's. */
 	Outcome truthOutcome(const LogRecipe& log) const;
@@ -69,6 +74,7 @@ class Runner
 	size_t logJob(const LogRecipe& recipe);
 	Job runJob(const RunRecipe& recipe, size_t log_job) const;
 	std::string contentOf(const RunRecipe& recipe) const;
+	Outcome outcomeOf(size_t job, const std::string& folder, const LogRecipe& log) const;
 	std::string folderOf(const RunRecipe& recipe) const { return folder_ + "/runs/" + recipe.name(); }
 	std::string truthFolderOf(const LogRecipe& log) const { return folder_ + "/truth/" + log.name; }
 

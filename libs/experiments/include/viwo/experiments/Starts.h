@@ -27,13 +27,14 @@ struct Start
 	double start_s = 0;
 	/** The robot drives there: a start in standstill or in a turn on the spot counts for the first metric pose only. */
 	bool driving = true;
-	StartRun ours;  //!< wheels in the initialisation, from the first pose on
-	StartRun vins;  //!< VINS-Mono's method: camera and IMU alone; the window afterwards is the same as ours
+	bool open = false;  //!< not measured yet
+	StartRun ours;      //!< wheels in the initialisation, from the first pose on
+	StartRun vins;      //!< VINS-Mono's method: camera and IMU alone; the window afterwards is the same as ours
 };
 
 void planStarts(Runner& runner, const Request& request);
 
-/** In the order of sequences, seeds, start times. @pre planned and executed. */
+/** In the order of sequences, seeds, start times. @pre planned, and execute() was called. */
 std::vector<Start> starts(const Runner& runner, const Request& request);
 
 /** Seconds; medians over the seeds. Starts in standstill or on the spot in parentheses and left out of the averages. */
