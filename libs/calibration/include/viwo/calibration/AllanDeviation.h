@@ -19,6 +19,7 @@ enum class NoiseKind
 };
 constexpr size_t kNoiseKinds = 4;
 
+/** One point of the curve. */
 struct AllanPoint
 {
 	size_t cluster = 0;    //!< samples in a cluster

@@ -17,7 +17,7 @@ class CsvTable
 	/** Goes to the next row. @throws Error when it has too few cells. @return false at the end. */
 	bool next();
 
-	/** @name Of this row, by the place of its column in the constructor's list. @{ */
+	/** @name Of this row, by the place of its column in the constructor's list. */ /** @{ */
 	const std::string& cell(size_t column) const { return rows_.words()[places_[column]]; }
 	double number(size_t column) const { return rows_.number(places_[column]); }
 	int64_t integer(size_t column) const { return rows_.integer(places_[column]); }

@@ -9,7 +9,7 @@
 #include <vector>
 
 /** Options of a part of the program, each field named once.
- *
+ *  @code
  *  struct TrackerOptions : Options<TrackerOptions>
  *  {
  *      int max_features = 150;  // ...
@@ -18,9 +18,9 @@
  *          v("max_features", max_features, "corners tracked at a time", 10, 2000);
  *      }
  *  };
- *
+ *  @endcode
  *  From that one list come loading (strict: a malformed value, one out of range, or a key that is not listed is an Error that names
- *  file, section and key), saving with comments, and validation.
+ *  file, section and key), saving with comments, and validation. @file
  */
 namespace viwo
 {
@@ -28,7 +28,7 @@ namespace viwo
 class OptionsReader
 {
    public:
-	/** @param file name for messages. */
+	/** The source is named in messages. */
 	OptionsReader(const mrpt::config::CConfigFileBase& source, std::string section);
 
 	void operator()(const char* key, double& value, const char* comment, double min = -std::numeric_limits<double>::infinity(),
@@ -87,7 +87,7 @@ class OptionsWriter
 	mrpt::config::CConfigFileBase& target_;
 	std::string section_;
 };
-
+/** Base of a struct of options that lists them in visit(); see the head of this file. */
 template <class Derived>
 class Options : public mrpt::config::CLoadableOptions
 {

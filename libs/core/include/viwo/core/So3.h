@@ -5,7 +5,7 @@
 
 /** The rotation group: Exp and Log between rotation vectors (rad) and rotations, and their Jacobians.
  *  Rotations are perturbed on the right, R Exp(dphi). All are accurate to machine precision from 0 up to pi.
- *  Source: Sola, Deray, Atchuthan, "A micro Lie theory for state estimation in robotics", Eqs. 132-147.
+ *  Source: Sola, Deray, Atchuthan, "A micro Lie theory for state estimation in robotics", Eqs. 132-147. @file
  */
 namespace viwo::so3
 {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/** Parts of which pictures are made. */
+/** Parts of which pictures are made. @file */
 namespace viwo
 {
 /** Text for XML and HTML. */
@@ -35,7 +35,7 @@ std::string svgLine(double x1, double y1, double x2, double y2);
 
 /** Stroke of the curve of this index; dashed once the colours are used up. */
 std::string svgCurveStyle(size_t index, const SvgPalette& colours);
-
+/** A name in a legend, and the attributes of its stroke. */
 struct SvgLegendEntry
 {
 	std::string name, style;

@@ -11,7 +11,7 @@ namespace viwo
 {
 /** Sum of the intervals between increasing stamps, holes left out: those longer than max_gap_s and than three usual intervals, s. */
 double coveredDuration_s(const std::vector<int64_t>& stamps_ns, double max_gap_s);
-
+/** A pose and its time. */
 struct StampedPose
 {
 	int64_t t_ns = 0;

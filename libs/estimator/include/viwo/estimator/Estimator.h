@@ -51,6 +51,7 @@ struct FrameEstimate
 	int features = 0;
 };
 
+/** A landmark of the window. */
 struct LandmarkPoint
 {
 	uint64_t id = 0;
@@ -66,6 +67,7 @@ struct KeyFrameView
 	std::vector<uint64_t> landmarks;  //!< ids, rising
 };
 
+/** What has happened so far. */
 struct EstimatorCounters
 {
 	int frames = 0;

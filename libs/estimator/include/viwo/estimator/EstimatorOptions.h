@@ -166,7 +166,7 @@ struct WindowOptions : Options<WindowOptions>
 		v("tracking_depth_deviation", tracking_depth_deviation, "relative deviation of inverse depth that counts as known", 0.01, 1.0);
 	}
 };
-
+/** All options of the estimator, in their sections. */
 struct EstimatorOptions
 {
 	Mode mode = Mode::viwo;

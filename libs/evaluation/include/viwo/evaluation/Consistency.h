@@ -40,6 +40,7 @@ struct Nees
 	double average() const;
 };
 
+/** Errors of a trajectory, measured by its own covariances. */
 struct Consistency
 {
 	Nees position;  //!< x y z, or x y of a planar source

@@ -34,12 +34,14 @@ constexpr int64_t toMicroseconds(int64_t t_ns)
 /** CSV with the header `rawlog_ns,original_s`, as an import of a log with repaired stamps writes it. @throws Error naming file and line. */
 StampTable loadStampTable(const std::string& path);
 
+/** Figures of the errors of all relations. */
 struct RelationFigures
 {
 	double mean = 0, deviation = 0, max = 0;  //!< of absolute errors; deviation of the population
 	double rms = 0;
 };
 
+/** Errors of a trajectory against measured relative poses. */
 struct RelationErrors
 {
 	size_t relations = 0;  //!< given
@@ -47,6 +49,7 @@ struct RelationErrors
 	RelationFigures translation_m, rotation_deg;
 };
 
+/** Which poses the relations are between. */
 struct RelationOptions
 {
 	int64_t tolerance_ns = 2000;  //!< between a relation's time and that of a pose

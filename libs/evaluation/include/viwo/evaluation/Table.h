@@ -30,7 +30,7 @@ class Table
 	std::string toMarkdown() const;
 	/** RFC 4180: a header line with the units in the names ("ATE (m)"), one line a row. */
 	std::string toCsv() const;
-	/** A <table> with a head, units in small print below the names. */
+	/** A `table` element with a head, units in small print below the names. */
 	std::string toHtml() const;
 
    private:

@@ -9,6 +9,7 @@
 
 namespace viwo
 {
+/** How a trajectory is compared with its reference. */
 struct EvaluationOptions
 {
 	AlignmentKind alignment = AlignmentKind::se3;

@@ -8,6 +8,7 @@
 
 namespace viwo
 {
+/** A trajectory and its name in the legend. */
 struct NamedTrajectory
 {
 	std::string name;

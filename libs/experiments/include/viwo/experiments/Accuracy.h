@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/** Table 1 of the paper and its ablations: the error of whole drives. */
+/** Table 1 of the paper and its ablations: the error of whole drives. @file */
 namespace viwo::experiments
 {
 /** What is run on each sequence: a mode, or one switch turned. */

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/** What each source of error costs: the drives are simulated with that source alone, and with all but that one. */
+/** What each source of error costs: the drives are simulated with that source alone, and with all but that one. @file */
 namespace viwo::experiments
 {
 /** Something that the simulator can leave out. */

@@ -8,13 +8,15 @@
 
 namespace viwo::experiments
 {
+/** Where an experiment reads and writes. */
 struct ExperimentFolders
 {
 	std::string output;    //!< tables and report; runs under runs/
-	std::string cache;     //!< simulated logs; empty: <output>/cache
+	std::string cache;     //!< simulated logs; empty: OUTPUT/cache
 	std::string programs;  //!< of viwo-sim and viwo-odometry
 };
 
+/** What an experiment wrote and found. */
 struct ExperimentResult
 {
 	std::vector<std::string> files;     //!< written

@@ -16,7 +16,7 @@ struct Job
 	/** Called right before the program starts. May be empty. */
 	std::function<void()> prepare;
 	std::vector<std::string> command;  //!< program and arguments
-	std::string log_stem;              //!< its output goes to <log_stem>.out and .err
+	std::string log_stem;              //!< its output goes to files of this name with .out and .err added
 	/** Called when the program has ended with another status than 0. @return true when it did its work all the same. May be empty. */
 	std::function<bool()> tolerated;
 	/** Called when the program has done its work. */

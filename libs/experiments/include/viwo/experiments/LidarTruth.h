@@ -5,8 +5,8 @@
 #include <viwo/experiments/Accuracy.h>
 #include <viwo/experiments/Runner.h>
 
-/** The ground truth that the paper used is made from the scans of a lidar. Here that is viwo-groundtruth's, and the simulator's exact truth
- *  tells what it is worth. */
+/** The ground truth that the paper used is made from the scans of a lidar. Here that is viwo-groundtruth's, and the simulator's exact
+ * truth tells what it is worth. @file */
 namespace viwo::experiments
 {
 /** A drive against the trajectory from its scans. That is planar: only x-y counts. */

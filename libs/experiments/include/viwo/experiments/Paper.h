@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/** Figures that Niu et al. print (Sec. 7), to stand beside ours. NaN where they print a dash. */
+/** Figures that Niu et al. print (Sec. 7), to stand beside ours. NaN where they print a dash. @file */
 namespace viwo::experiments
 {
 /** RMSE of the ATE, m (Table 1). */
@@ -19,6 +19,7 @@ struct PaperRow
 	double average;
 };
 
+/** What the paper prints about one of its sequences. */
 struct PaperSequence
 {
 	std::string name;

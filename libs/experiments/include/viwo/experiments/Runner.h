@@ -39,7 +39,7 @@ class Runner
 	/** @param folder for logs (cache/), runs (runs/) and results. @param programs folder of the programs. */
 	Runner(std::string folder, std::string programs);
 
-	/** Another folder for the logs than <folder>/cache. */
+	/** Another folder for the logs than FOLDER/cache. */
 	void keepLogsIn(const std::string& folder) { cache_ = SimulationCache(folder, programs_); }
 
 	/** Runs that are whole are not done again while their log, configuration and program are the same.

@@ -5,7 +5,7 @@
 #include <viwo/experiments/Request.h>
 #include <viwo/experiments/Runner.h>
 
-/** Tables 2 and 3 of the paper: how long a start in the middle of a drive takes, and how good the next 30 s are. */
+/** Tables 2 and 3 of the paper: how long a start in the middle of a drive takes, and how good the next 30 s are. @file */
 namespace viwo::experiments
 {
 /** After the start of one method. Times are from the first image after the start; NaN: never. */

@@ -15,6 +15,7 @@ struct HandMadeLoop
 	double x_m = 0, y_m = 0, yaw_rad = 0;
 };
 
+/** What a run reads and writes. */
 struct GroundTruthRunOptions
 {
 	std::vector<std::string> rawlogs;  //!< one session, in the order of time
@@ -32,6 +33,7 @@ struct GroundTruthRunOptions
 	std::vector<HandMadeLoop> extra_loops;
 };
 
+/** Hooks of a run; all may be empty. */
 struct GroundTruthRunHooks
 {
 	/** Fraction done, and a word on what is going on. */
@@ -40,6 +42,7 @@ struct GroundTruthRunHooks
 	std::function<bool()> interrupted;
 };
 
+/** How a run ended. */
 struct GroundTruthRunResult
 {
 	size_t scans = 0, key_scans = 0, loops_accepted = 0, loops_rejected = 0;

@@ -21,6 +21,7 @@ struct CalibrationFiles
 	std::string cam_label = "CAM", imu_label = "IMU";
 };
 
+/** A rig made of files of other programs. */
 struct ImportedRig
 {
 	RigFile rig;

@@ -11,7 +11,7 @@ namespace viwo
  *  back, strictly increasing ones are written, the nearest in the sense of least squares; X_stamps.csv (`rawlog_ns,original_s`) leads from
  *  one to the other.
  *
- *  @param job.folder the log.
+ *  @param job its folder is the log.
  *  @throws Error naming file and line.
  */
 ImportResult importCarmen(const ImportJob& job);

@@ -11,7 +11,7 @@ namespace viwo
  * [rad/s]`, with odom0/sensor.yaml whose T_BS is the odometer frame O in the body frame. Without it O = B. Image files are copied as they
  * are. The truth is that of O.
  *
- *  @param job.folder the folder that holds mav0, or mav0 itself.
+ *  @param job its folder is that which holds mav0, or mav0 itself.
  *  @throws Error naming file and line: missing files, wrong columns, stamps that do not increase, unknown camera or distortion model.
  */
 ImportResult importEuroc(const ImportJob& job);

@@ -6,6 +6,7 @@
 
 namespace viwo
 {
+/** Errors that are put on the drive's exact forward speed. */
 struct KittiOptions
 {
 	double speed_noise_m_s = 0;  //!< standard deviation of white noise added to each forward speed

@@ -34,6 +34,7 @@ struct StreamInfo
 	bool calibrated = true;  //!< a camera: whether its lens is known
 };
 
+/** What is inside of a recording. */
 struct RecordingInfo
 {
 	std::string path, kind;  //!< "rawlog", "ROS 1 bag", "CARMEN log", "EuRoC sequence", "KITTI drive"

@@ -7,6 +7,7 @@
 
 namespace viwo
 {
+/** Which bags are read, and how. */
 struct RosBagOptions
 {
 	/** Read as one recording. ImportJob::folder is not used. */

@@ -10,6 +10,7 @@
 
 namespace viwo
 {
+/** A colour, 0 to 255 each. */
 struct PlotColour
 {
 	uint8_t red = 0, green = 0, blue = 0;

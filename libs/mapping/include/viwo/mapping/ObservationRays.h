@@ -12,6 +12,7 @@
 
 namespace viwo
 {
+/** Which returns of which observations become rays. */
 struct RayOptions
 {
 	bool scans = true;                                          //!< CObservation2DRangeScan

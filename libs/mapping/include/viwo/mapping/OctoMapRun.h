@@ -17,6 +17,7 @@ enum class VoxelColours
 	height
 };
 
+/** What is made into an octree, and how. */
 struct OctoMapRunOptions
 {
 	std::string rawlog, trajectory;  //!< the trajectory is of O, TUM
@@ -39,12 +40,14 @@ struct OctoMapRunOptions
 	bool allow_truncated = false;
 };
 
+/** Hooks of a run; all may be empty. */
 struct OctoMapRunHooks
 {
 	std::function<void(double fraction, const std::string& note)> progress;
 	std::function<bool()> interrupted;
 };
 
+/** What became of the observations. */
 struct OctoMapRunResult
 {
 	size_t used = 0;     //!< observations in the map, key frames with landmarks included

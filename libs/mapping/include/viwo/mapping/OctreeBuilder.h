@@ -17,6 +17,7 @@ struct SensorModel
 	double occupancy_threshold = 0.5;
 };
 
+/** How rays become voxels. */
 struct RayCasting
 {
 	double max_range_m = -1;  //!< longer rays only clear, up to this; below 0: no limit

@@ -8,6 +8,7 @@
 
 namespace viwo
 {
+/** What writeRawlogWithPoses() reads and writes. */
 struct RawlogWithPosesOptions
 {
 	std::string input, output;
@@ -17,6 +18,7 @@ struct RawlogWithPosesOptions
 	std::function<bool()> interrupted;
 };
 
+/** What writeRawlogWithPoses() wrote. */
 struct RawlogWithPosesResult
 {
 	size_t observations = 0, poses = 0;
@@ -31,6 +33,7 @@ struct RawlogWithPosesResult
  */
 RawlogWithPosesResult writeRawlogWithPoses(const RawlogWithPosesOptions& options, const Trajectory& trajectory);
 
+/** What writeKeyFrameMap() reads and writes. */
 struct KeyFrameMapOptions
 {
 	std::string rawlog, output;

@@ -18,6 +18,7 @@ enum class PoseFrame
 	C   //!< camera, optical axes
 };
 
+/** What a run reads and writes. */
 struct OdometryRunOptions
 {
 	std::vector<std::string> rawlogs;  //!< of one run, in the order of their time; a pipe counts as a file
@@ -32,6 +33,7 @@ struct OdometryRunOptions
 	bool allow_truncated = false;
 };
 
+/** How a run ended. */
 struct OdometryRunResult
 {
 	int frames = 0, poses = 0;

@@ -12,7 +12,7 @@
 namespace viwo
 {
 struct RigFile;
-
+/** How a rawlog is read. */
 struct RawlogReaderOptions
 {
 	/** Labels to deliver; empty: all. */

@@ -34,10 +34,10 @@ class RawlogWriter
 	/** @throws Error when anything could not be written (disk full). */
 	void close();
 
-	/** `<name>_Images` beside the rawlog; created by the first call. @throws Error when it cannot be. */
+	/** NAME_Images beside the rawlog; created by the first call. @throws Error when it cannot be. */
 	const std::string& imagesFolder();
 
-	/** File name of an image inside of imagesFolder(): `<label>_<seconds>.<9 digits>.<extension>`. What makeImage() takes. */
+	/** File name of an image inside of imagesFolder(): LABEL_SECONDS.EXTENSION, with 9 decimals. What makeImage() takes. */
 	static std::string imageName(const std::string& label, int64_t t_ns, const std::string& extension = "jpg");
 
 	/** Where to save that image: imagesFolder() + "/" + imageName(). */
@@ -48,8 +48,8 @@ class RawlogWriter
 	std::unique_ptr<Impl> impl_;
 };
 
-/** @name Observations of the stock classes, made from viwo's types. Stamps are rounded to MRPT's 100 ns. T_Ox: pose of the sensor in O. @{
- */
+/** @name Observations of the stock classes, made from viwo's types. Stamps are rounded to MRPT's 100 ns. T_Ox: pose of the sensor in O.
+ *  @{ */
 
 /** Slots in MRPT's order (acc x y z, then the rates wz wy wx). */
 mrpt::obs::CObservationIMU makeImu(const ImuSample& sample, const Pose3& T_OB, const std::string& label = "IMU");

@@ -48,6 +48,7 @@ enum class SfmStatus
 
 const char* toString(SfmStatus status);
 
+/** A point of the reconstruction. */
 struct SfmPoint
 {
 	uint64_t id = 0;

@@ -59,6 +59,7 @@ struct LidarOptions : Options<LidarOptions>
 	}
 };
 
+/** One sweep. */
 struct LidarScan
 {
 	int64_t t_ns = 0;             //!< of the first beam

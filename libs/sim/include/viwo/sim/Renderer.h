@@ -12,6 +12,7 @@
 
 namespace viwo::sim
 {
+/** How motion blur is made. */
 struct RendererOptions : Options<RendererOptions>
 {
 	bool motion_blur = true;

@@ -8,6 +8,7 @@
 
 namespace viwo::sim
 {
+/** How a simulation is carried out; but for the images it changes no file. */
 struct SimulationRunOptions
 {
 	bool images = true;  //!< false: a log without a camera
@@ -19,6 +20,7 @@ struct SimulationRunOptions
 	std::function<bool(double fraction)> progress;
 };
 
+/** What a simulation wrote. */
 struct SimulationResult
 {
 	std::string rawlog, ground_truth, configuration;  //!< paths of what was written

@@ -32,6 +32,7 @@ enum class TextureKind
 	scuffs  //!< paint with marks of trolleys and shoes in its lower part
 };
 
+/** What a surface looks like, to the camera and to the LiDAR. */
 struct Material
 {
 	std::string name = "plain";
