@@ -28,6 +28,15 @@ TEST(Table, BoldCellsStandOut)
 	EXPECT_EQ(someTable().toText().find('*'), std::string::npos);
 }
 
+TEST(Table, LongTextsBreakAndNamesWithHyphensDoNot)
+{
+	Table table({{"remark", "", true}, {"ATE x-y-z", "m"}});
+	table.addRow({std::string(60, 'r'), "0.5"});
+	const std::string html = table.toHtml();
+	EXPECT_NE(html.find("ATE <span class=\"w\">x-y-z</span>"), std::string::npos) << html;
+	EXPECT_NE(html.find("<td class=\"l long\">rrr"), std::string::npos) << html;
+}
+
 TEST(HtmlPage, EscapesTextAndClosesItsTags)
 {
 	HtmlPage page("a < b & c");

@@ -98,3 +98,24 @@ TEST(PlotSvg, LegendNamesTellFilesApart)
 	EXPECT_EQ(legendNames({"a.tum", "b.tum"}), (Names{"a", "b"}));
 	EXPECT_EQ(legendNames({"x/a.tum", "x/a.tum"}), (Names{"x/a.tum", "x/a.tum"}));
 }
+
+/** Northings have seven figures: they are neither cut off nor run into the name of the axis. */
+TEST(PlotSvg, LongFiguresHaveTheirRoom)
+{
+	const std::string near = toSvg({circle("truth", 30, {0, 0})}, "near"), far = toSvg({circle("truth", 30, {5e5, 4.6e6})}, "far");
+	EXPECT_NE(far.find(">4600000<"), std::string::npos);
+	EXPECT_NE(far.find("<g transform=\"translate(13.6 0)\">"), std::string::npos);
+	EXPECT_NE(far.find("translate(0.4 "), std::string::npos) << "the name of the axis stays at the edge";
+	EXPECT_EQ(near.find("<g transform"), std::string::npos);
+}
+
+TEST(PlotSvg, LongNamesLoseTheirMiddle)
+{
+	const std::string name = "run_\xC3\xBC_" + std::string(100, 'x') + "_the_end (ATE 0.123 m)";
+	const std::string svg = toSvg({circle("truth", 1, {0, 0}), circle(name, 1, {0, 0})}, "names");
+	EXPECT_EQ(svg.find(name), std::string::npos);
+	const size_t begin = svg.find(">run_\xC3\xBC_x"), end = svg.find("x_the_end (ATE 0.123 m)<");
+	ASSERT_NE(begin, std::string::npos);
+	ASSERT_NE(end, std::string::npos);
+	EXPECT_LT(end - begin, 64u) << "as many characters as the picture is wide";
+}

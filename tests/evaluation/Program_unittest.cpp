@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 using namespace viwo;
 using namespace viwo::testing;
 
@@ -91,10 +93,25 @@ TEST_F(EvaluateProgram, WritesAPage)
 	size_t pictures = 0;
 	for (size_t at = html.find("<svg"); at != std::string::npos; at = html.find("<svg", at + 1)) ++pictures;
 	EXPECT_EQ(pictures, 3u) << "paths, error over time, drift over distance";
-	for (const char* part : {"moved.tum", "none.tum", "ATE x-y-z", "Drift", "</html>"})
-		EXPECT_NE(html.find(part), std::string::npos) << part;
+	for (const char* part : {"moved.tum", "none.tum", ">x-y-z<", "Drift", "</html>"}) EXPECT_NE(html.find(part), std::string::npos) << part;
 	EXPECT_EQ(run({"-r", folder_.file("ref.tum"), "-e", folder_.file("moved.tum"), "--html", folder_.file("ref.tum") + "/x.html"}).status,
 	          1);
+}
+
+/** Over a tenth of the way, an error is small. */
+TEST_F(EvaluateProgram, APieceOfTheWayIsNotTheBestInThePage)
+{
+	std::istringstream lines(readFile(folder_.file("ref.tum")));
+	std::string piece, line;
+	for (int i = 0; i < 20 && std::getline(lines, line); ++i) piece += line + "\n";
+	writeFile(folder_.file("piece.tum"), piece);
+	run({"-r", folder_.file("ref.tum"), "-e", folder_.file("piece.tum"), "-e", folder_.file("scaled.tum"), "--html",
+	     folder_.file("x.html")});
+	const std::string html = readFile(folder_.file("x.html"));
+	const size_t bold = html.find("<b>");
+	ASSERT_NE(bold, std::string::npos);
+	EXPECT_GT(bold, html.find("scaled.tum</td>"));
+	EXPECT_EQ(html.find("<b>", bold + 1), std::string::npos);
 }
 
 TEST_F(EvaluateProgram, MissingEstimateIsARowWithoutFigures)

@@ -158,6 +158,20 @@ TEST_F(Experiments, DamagedFilesDoNotStopTheRest)
 	EXPECT_NE(viwo::testing::readFile(out_.file("table1.md")).find("fails"), std::string::npos);
 }
 
+TEST_F(Experiments, LogsThatWereCutAreMadeAgain)
+{
+	request_.tables = {1};
+	request_.sequences = {"seq05"};
+	request_.seeds = {1};
+	run();
+	EXPECT_EQ(programs_.count("sim --"), 1);
+	for (const auto& folder : std::filesystem::directory_iterator(out_.file("cache"))) std::ofstream(folder.path() / "log.rawlog") << "l";
+	EXPECT_TRUE(run().problems.empty());
+	EXPECT_EQ(programs_.count("sim --"), 2);
+	run();
+	EXPECT_EQ(programs_.count("sim --"), 2);
+}
+
 /** Without logs nothing can be measured, and all that was asked for is still written. */
 TEST_F(Experiments, LogsThatCannotBeMadeAreProblems)
 {
@@ -235,6 +249,7 @@ TEST_F(Experiments, GroundTruthFromLidarStandsBesideTheExactOne)
 	request_.tables = {1};
 	EXPECT_TRUE(run().problems.empty());
 	EXPECT_FALSE(std::filesystem::exists(out_.file("table1_lidar.json")));
+	EXPECT_NE(viwo::testing::readFile(out_.file("report.html")).find("viwo-groundtruth was not there"), std::string::npos);
 	programs_.addGroundTruth();
 	EXPECT_TRUE(run().problems.empty());
 	EXPECT_EQ(programs_.count("groundtruth"), 4) << "two sequences, two seeds";

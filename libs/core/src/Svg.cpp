@@ -29,6 +29,34 @@ size_t characterLength(const std::string& text, size_t at)
 	const bool allowed = (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF && code <= 0x10FFFF;
 	return shortest && allowed ? length : 0;
 }
+
+bool beginsCharacter(char byte)
+{
+	return (static_cast<unsigned char>(byte) & 0xC0u) != 0x80u;
+}
+
+size_t charactersOf(const std::string& text)
+{
+	return static_cast<size_t>(std::count_if(text.begin(), text.end(), beginsCharacter));
+}
+
+/** Without its middle where it is longer: names of files differ at their ends. */
+std::string shortened(const std::string& text, size_t most)
+{
+	const size_t all = charactersOf(text);
+	if (all <= most) return text;
+	const std::string mark = "...";
+	const size_t head = (most - mark.size()) / 3, tail = all - (most - mark.size() - head);
+	std::string first, last;
+	size_t at = 0;
+	for (const char byte : text)
+	{
+		at += beginsCharacter(byte) ? 1 : 0;
+		if (at <= head) first += byte;
+		if (at > tail) last += byte;
+	}
+	return first + mark + last;
+}
 }  // namespace
 
 std::string escapedForXml(const std::string& text)
@@ -105,18 +133,20 @@ double svgLegend(const std::vector<SvgLegendEntry>& entries, double left, double
                  std::string& svg)
 {
 	constexpr double kLine = 20, kColumn = 24, kCharacter = 7.2;
+	const auto most = static_cast<size_t>(std::max(8.0, (width - kColumn - 6) / kCharacter));
 	double x = left, y = top;
 	svg += "<g font-size=\"13\" fill=\"" + colours.ink + "\">\n";
 	for (const SvgLegendEntry& entry : entries)
 	{
-		const double needed = kColumn + 22 + kCharacter * static_cast<double>(entry.name.size());
+		const std::string name = shortened(entry.name, most);
+		const double needed = kColumn + 22 + kCharacter * static_cast<double>(charactersOf(name));
 		if (x > left && x + needed > left + width)
 		{
 			x = left;
 			y += kLine;
 		}
 		svg += "<g " + entry.style + ">" + svgLine(x, y - 4, x + kColumn, y - 4) + "</g>\n";
-		svg += svgText(x + kColumn + 6, y, entry.name);
+		svg += svgText(x + kColumn + 6, y, name);
 		x += needed;
 	}
 	svg += "</g>\n";

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "Margin.h"
+
 namespace viwo
 {
 namespace
@@ -42,16 +44,18 @@ class Axis
 	double low_ = 0, high_ = 1, from_, to_, step_ = 1;
 };
 
-std::string yGrid(const Axis& y, const std::string& label, const SvgPalette& c)
+std::string yGrid(const Axis& y, const std::string& label, const SvgPalette& c, Margin& margin)
 {
 	std::string lines = "<g stroke=\"" + c.grid + "\">\n", labels = "<g fill=\"" + c.muted + "\" font-size=\"12\">\n";
 	for (const double value : y.ticks())
 	{
 		lines += svgLine(kLeft, y.place(value), kLeft + kWidth, y.place(value));
-		labels += svgText(kLeft - 6, y.place(value) + 4, onGrid(value, y.step()), "text-anchor=\"end\"");
+		const std::string figure = onGrid(value, y.step());
+		margin.add(figure);
+		labels += svgText(kLeft - 6, y.place(value) + 4, figure, "text-anchor=\"end\"");
 	}
-	labels += "<text transform=\"translate(14 " + svgNumber(kTop + kHeight / 2) + ") rotate(-90)\" text-anchor=\"middle\">" +
-	          escapedForXml(label) + "</text>\n";
+	labels += "<text transform=\"translate(" + svgNumber(14 - margin.missing()) + " " + svgNumber(kTop + kHeight / 2) +
+	          ") rotate(-90)\" text-anchor=\"middle\">" + escapedForXml(label) + "</text>\n";
 	return lines + "</g>\n" + labels + "</g>\n";
 }
 
@@ -144,7 +148,8 @@ std::string toSvg(const LineChart& chart, PlotColours colours)
 	if (!(right >= left)) left = right = 0;
 	const double room = 0.05 * (high - low);
 	const Axis x(left, right, kLeft, kLeft + kWidth, kGridLinesX), y(low < 0 ? low - room : 0, high + room, kBottom, kTop, kGridLinesY);
-	std::string body = xGrid(x, chart.x_label, c) + yGrid(y, chart.y_label, c) + frame(c);
+	Margin margin;
+	std::string body = xGrid(x, chart.x_label, c) + yGrid(y, chart.y_label, c, margin) + frame(c);
 	std::vector<SvgLegendEntry> entries;
 	for (size_t i = 0; i < chart.curves.size(); ++i)
 	{
@@ -152,7 +157,7 @@ std::string toSvg(const LineChart& chart, PlotColours colours)
 		body += curve(chart.curves[i], x, y, entries.back().style);
 	}
 	const double end = svgLegend(entries, kLeft, kBottom + kAxisHeight + 14, kWidth, c, body);
-	return svgPicture(kLeft + kWidth + kRight, end + 14, chart.title, kLeft, c, body);
+	return svgPicture(kLeft + kWidth + kRight + margin.missing(), end + 14, chart.title, kLeft + margin.missing(), c, margin.moved(body));
 }
 
 std::string toSvg(const BarChart& chart, PlotColours colours)
@@ -167,7 +172,8 @@ std::string toSvg(const BarChart& chart, PlotColours colours)
 	const bool upright = widestFigure(chart) > width;
 	const double room = upright ? widestFigure(chart) + 8 : kFigure + 8;
 	const Axis y(0, high * kHeight / (kHeight - room), kBottom, kTop, kGridLinesY);
-	std::string body = yGrid(y, chart.y_label, c) + frame(c);
+	Margin margin;
+	std::string body = yGrid(y, chart.y_label, c, margin) + frame(c);
 	std::vector<SvgLegendEntry> entries;
 	for (size_t s = 0; s < chart.series.size(); ++s)
 	{
@@ -185,6 +191,6 @@ std::string toSvg(const BarChart& chart, PlotColours colours)
 		body += svgText(kLeft + (static_cast<double>(g) + 0.5) * group_width, kBottom + 18, chart.groups[g],
 		                "text-anchor=\"middle\" font-size=\"12\" fill=\"" + c.muted + "\"");
 	const double end = svgLegend(entries, kLeft, kBottom + kAxisHeight + 4, kWidth, c, body);
-	return svgPicture(kLeft + kWidth + kRight, end + 14, chart.title, kLeft, c, body);
+	return svgPicture(kLeft + kWidth + kRight + margin.missing(), end + 14, chart.title, kLeft + margin.missing(), c, margin.moved(body));
 }
 }  // namespace viwo

@@ -24,7 +24,8 @@ table { border-collapse: collapse; font-size: 0.9rem; font-variant-numeric: tabu
 .caption { margin: 0 0 1rem; color: var(--muted); font-size: 0.85rem; }
 th, td { padding: 0.25rem 0.6rem; text-align: right; white-space: nowrap; }
 th { min-width: 4rem; border-bottom: 2px solid var(--reference); vertical-align: bottom; white-space: normal; } th small { display: block; color: var(--muted); font-weight: normal; }
-td { border-bottom: 1px solid var(--grid); } .l { text-align: left; }
+td { border-bottom: 1px solid var(--grid); } .l { text-align: left; } .w { white-space: nowrap; }
+.long { white-space: normal; min-width: 16rem; overflow-wrap: anywhere; }
 tbody tr:hover { background: var(--band); } b { color: var(--c3); }
 figure { margin: 0.5rem 0 1rem; min-width: 0; } figure svg { max-width: 100%; min-width: 22rem; height: auto; display: block; }
 figure img { max-width: 100%; height: auto; display: block; background: #ffffff; }

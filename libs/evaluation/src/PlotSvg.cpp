@@ -9,6 +9,8 @@
 #include <limits>
 #include <set>
 
+#include "Margin.h"
+
 namespace viwo
 {
 namespace
@@ -58,7 +60,7 @@ class Paper
 	double scale_ = 1, step_m_ = 1;
 };
 
-std::string grid(const Paper& paper, const SvgPalette& c)
+std::string grid(const Paper& paper, const SvgPalette& c, Margin& margin)
 {
 	const double step = paper.step_m();
 	const double bottom = kTop + paper.height(), right = kLeft + paper.width();
@@ -71,11 +73,13 @@ std::string grid(const Paper& paper, const SvgPalette& c)
 	for (double k = std::ceil(paper.low_m().y() / step); k * step <= paper.high_m().y(); k += 1)
 	{
 		lines += svgLine(kLeft, paper.y(k * step), right, paper.y(k * step));
-		labels += svgText(kLeft - 6, paper.y(k * step) + 4, onGrid(k * step, step), "text-anchor=\"end\"");
+		const std::string figure = onGrid(k * step, step);
+		margin.add(figure);
+		labels += svgText(kLeft - 6, paper.y(k * step) + 4, figure, "text-anchor=\"end\"");
 	}
 	labels += svgText(kLeft + paper.width() / 2, bottom + 34, "x (m)", "text-anchor=\"middle\"");
-	labels +=
-	    "<text transform=\"translate(14 " + svgNumber(kTop + paper.height() / 2) + ") rotate(-90)\" text-anchor=\"middle\">y (m)</text>\n";
+	labels += "<text transform=\"translate(" + svgNumber(14 - margin.missing()) + " " + svgNumber(kTop + paper.height() / 2) +
+	          ") rotate(-90)\" text-anchor=\"middle\">y (m)</text>\n";
 	return lines + "</g>\n" + labels + "</g>\n<rect x=\"" + svgNumber(kLeft) + "\" y=\"" + svgNumber(kTop) + "\" width=\"" +
 	       svgNumber(paper.width()) + "\" height=\"" + svgNumber(paper.height()) + "\" fill=\"none\" stroke=\"" + c.reference + "\"/>\n";
 }
@@ -153,13 +157,15 @@ std::string toSvg(const std::vector<PlotCurve>& curves, const std::string& title
 {
 	const SvgPalette& c = colours == PlotColours::page ? pagePalette() : lightPalette();
 	const Paper paper(curves);
-	std::string body = grid(paper, c);
+	Margin margin;
+	std::string body = grid(paper, c, margin);
 	for (size_t i = 0; i < curves.size(); ++i) body += path(paper, curves[i], i, c);
 	body += scaleBar(paper, c);
 	std::vector<SvgLegendEntry> entries;
 	for (size_t i = 0; i < curves.size(); ++i) entries.push_back({curves[i].name, style(i, c)});
 	const double legend_end = svgLegend(entries, kLeft, kTop + paper.height() + kAxisHeight + 14, paper.width(), c, body);
-	return svgPicture(kLeft + paper.width() + kRight, legend_end + 14, title, kLeft, c, body);
+	return svgPicture(kLeft + paper.width() + kRight + margin.missing(), legend_end + 14, title, kLeft + margin.missing(), c,
+	                  margin.moved(body));
 }
 
 void saveSvg(const std::string& path, const std::vector<PlotCurve>& curves, const std::string& title)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace viwo
@@ -36,6 +37,22 @@ std::string escaped(const std::string& text)
 	for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
 	return out;
 }
+
+/** Names like "x-y" are not parted at their hyphen. */
+std::string headerHtml(const std::string& name)
+{
+	std::string html;
+	std::istringstream words(name);
+	for (std::string word; words >> word;)
+	{
+		const std::string text = escapedForXml(word);
+		html += (html.empty() ? "" : " ") + (word.find('-') == std::string::npos ? text : "<span class=\"w\">" + text + "</span>");
+	}
+	return html;
+}
+
+/** Longer texts may have more than one line. */
+constexpr size_t kLongText = 40;
 }  // namespace
 
 Table::Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
@@ -117,7 +134,7 @@ std::string Table::toHtml() const
 	const auto kind = [this](size_t i) { return columns_[i].left ? std::string(" class=\"l\"") : std::string(); };
 	std::string html = "<table>\n<thead><tr>";
 	for (size_t i = 0; i < columns_.size(); ++i)
-		html += "<th scope=\"col\"" + kind(i) + ">" + escapedForXml(columns_[i].name) +
+		html += "<th scope=\"col\"" + kind(i) + ">" + headerHtml(columns_[i].name) +
 		        (columns_[i].unit.empty() ? "" : " <small>" + escapedForXml(columns_[i].unit) + "</small>") + "</th>";
 	html += "</tr></thead>\n<tbody>\n";
 	for (size_t r = 0; r < rows_.size(); ++r)
@@ -126,7 +143,9 @@ std::string Table::toHtml() const
 		for (size_t i = 0; i < rows_[r].size(); ++i)
 		{
 			const std::string content = escapedForXml(rows_[r][i]);
-			html += "<td" + kind(i) + ">" + (bold_[r].count(i) != 0 ? "<b>" + content + "</b>" : content) + "</td>";
+			const bool is_long = columns_[i].left && widthOf(rows_[r][i]) > kLongText;
+			html += "<td" + (is_long ? " class=\"l long\"" : kind(i)) + ">" +
+			        (bold_[r].count(i) != 0 ? "<b>" + content + "</b>" : content) + "</td>";
 		}
 		html += "</tr>\n";
 	}

@@ -4,6 +4,7 @@
 #include <viwo/evaluation/Html.h>
 #include <viwo/evaluation/TrajectoryPictures.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace viwo
@@ -13,6 +14,9 @@ namespace
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /** Error curves show at most this many points. */
 constexpr size_t kPoints = 800;
+constexpr int kAteDecimals = 4;
+/** Of the reference, for the smallest error to stand out. */
+constexpr double kComparableCoverage = 0.9;
 
 LineChart::Curve errorCurve(const std::string& name, const std::vector<MatchedPose>& matches, int64_t begin_ns, double max_gap_s)
 {
@@ -58,6 +62,21 @@ std::string alignmentText(AlignmentKind kind)
 	return "not aligned";
 }
 
+/** A piece of the way is not better than the whole. */
+bool comparable(const TrajectoryErrors& e)
+{
+	return e.coverage >= kComparableCoverage;
+}
+
+/** As it is printed. */
+std::string smallestAte(const std::vector<EstimateReport>& reports)
+{
+	double best = std::numeric_limits<double>::infinity();
+	for (const EstimateReport& r : reports)
+		if (comparable(r.errors)) best = std::min(best, r.errors.ate_xyz_m);
+	return fixed(best, kAteDecimals);
+}
+
 Table errorTable(const std::vector<EstimateReport>& reports)
 {
 	Table table({{"estimate", "", true},
@@ -70,16 +89,15 @@ Table errorTable(const std::vector<EstimateReport>& reports)
 	             {"yaw RMSE", "deg"},
 	             {"RPE, 1 s", "m"},
 	             {"RPE, 1 m", "%"}});
-	double best = std::numeric_limits<double>::infinity();
-	for (const EstimateReport& r : reports)
-		if (r.errors.ate_xyz_m < best) best = r.errors.ate_xyz_m;
+	const std::string best = smallestAte(reports);
 	for (const EstimateReport& r : reports)
 	{
 		const TrajectoryErrors& e = r.errors;
-		table.addRow({r.name, fixed(e.length_m, 2), fixed(100 * e.coverage, 1), fixed(e.ate_xy_m, 4), fixed(e.ate_z_m, 4),
-		              fixed(e.ate_xyz_m, 4), fixed(100 * e.ate_xyz_m / e.length_m, 2), fixed(e.yaw_rmse_deg, 3),
-		              fixed(e.rpe_interval_trans_m, 4), fixed(e.rpe_trans_percent, 2)},
-		             reports.size() > 1 && e.ate_xyz_m == best ? std::set<size_t>{5} : std::set<size_t>{});
+		const bool bold = reports.size() > 1 && comparable(e) && fixed(e.ate_xyz_m, kAteDecimals) == best;
+		table.addRow({r.name, fixed(e.length_m, 2), fixed(100 * e.coverage, 1), fixed(e.ate_xy_m, kAteDecimals),
+		              fixed(e.ate_z_m, kAteDecimals), fixed(e.ate_xyz_m, kAteDecimals), fixed(100 * e.ate_xyz_m / e.length_m, 2),
+		              fixed(e.yaw_rmse_deg, 3), fixed(e.rpe_interval_trans_m, 4), fixed(e.rpe_trans_percent, 2)},
+		             bold ? std::set<size_t>{5} : std::set<size_t>{});
 	}
 	return table;
 }
@@ -109,7 +127,7 @@ std::string evaluationHtml(const std::string& reference, const EvaluationOptions
 	page.paragraph("Reference: " + reference + "; estimates " + alignmentText(options.alignment) + ".");
 	page.table(errorTable(reports),
 	           "Root mean squares. ATE: absolute trajectory error; RPE: relative error over 1 s and over 1 m of the path. The smallest ATE "
-	           "is bold.");
+	           "of those that cover at least 90 % of the reference is bold.");
 	page.beginRow();
 	page.figure(pictures.paths, "Trajectories from above, " + alignmentText(options.alignment) + ", equal axes in metres.", true);
 	page.figure(pictures.error_over_time, "Distance between each pose and the reference, in metres, over time in seconds.");

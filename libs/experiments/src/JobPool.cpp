@@ -19,6 +19,9 @@ namespace
 /** Longer than any job takes on a slow machine: a program that hangs must not hang the table. */
 constexpr double kTimeLimit_s = 3600;
 
+/** The costs that jobs are added with count like a job of this cost that took as long. */
+constexpr double kKnown_s = 10;
+
 double now_s()
 {
 	return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -236,19 +239,18 @@ void JobPool::stopAll()
 	}
 }
 
-/** The pace of what has been done, for what has not: a program that runs counts with what it should still need. */
+/** The pace of what has been done, for what has not: a program that runs counts with what it should still need. Costs are seconds: at first
+ * they tell. */
 double JobPool::left_s() const
 {
-	double cost_s = 0, took_s = 0;
+	double cost_s = 0, took_s = 0;  // of what is done
 	for (const Entry& e : entries_)
 	{
 		if (e.state != State::done || e.took_s <= 0) continue;
 		cost_s += e.job.cost_s;
 		took_s += e.took_s;
 	}
-	if (allDone()) return 0;
-	if (cost_s <= 0) return -1;
-	const double pace = took_s / cost_s;
+	const double pace = (took_s + kKnown_s) / (cost_s + kKnown_s);
 	double left_s = 0;
 	for (const Entry& e : entries_)
 		if (e.state == State::waiting)
@@ -294,8 +296,7 @@ std::string toLine(const JobReport& report)
 	};
 	char took[32];
 	std::snprintf(took, sizeof took, " (%.1f s)", report.took_s);
-	return "[" + std::to_string(report.done) + "/" + std::to_string(report.total) + "] " + clock(report.elapsed_s) +
-	       (report.left_s >= 0 ? ", " + clock(report.left_s) + " left" : "") + "  " + report.label + took +
-	       (report.error.empty() ? "" : "  FAILED: " + report.error);
+	return "[" + std::to_string(report.done) + "/" + std::to_string(report.total) + "] " + clock(report.elapsed_s) + ", " +
+	       clock(report.left_s) + " left" + "  " + report.label + took + (report.error.empty() ? "" : "  FAILED: " + report.error);
 }
 }  // namespace viwo::experiments

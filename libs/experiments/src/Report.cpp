@@ -33,6 +33,9 @@ void introduce(HtmlPage& page, const Request& request, const Provenance& provena
 	               seedsText(request.seeds) +
 	               ". One configuration of the estimator, one robot and one set of sensor errors for all sequences. Figures are medians "
 	               "over the seeds; alignment by rotation and translation.");
+	if (request.tables.count(1) != 0 && !provenance.has_truth)
+		page.paragraph(
+		    "viwo-groundtruth was not there: this page is without Table 1 against the ground truth from LiDAR, and without Figure 5.");
 	if (!provenance.interruption.empty()) page.paragraph(provenance.interruption);
 }
 

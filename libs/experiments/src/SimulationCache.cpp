@@ -16,11 +16,28 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kContentFile = "/inputs.txt";
+constexpr const char* kSizeFile = "/size.txt";
+
+/** How many files the log has, images included, and how large they are: to notice that some are missing or were cut. */
+std::string sizeOf(const std::string& folder)
+{
+	size_t files = 0;
+	uintmax_t bytes = 0;
+	for (const auto& entry : fs::recursive_directory_iterator(folder))
+	{
+		const std::string name = entry.path().filename().string();
+		if (!entry.is_regular_file() || "/" + name == kContentFile || "/" + name == kSizeFile) continue;
+		++files;
+		bytes += entry.file_size();
+	}
+	return std::to_string(files) + " files, " + std::to_string(bytes) + " bytes\n";
+}
 
 bool isWhole(const std::string& folder, const LogRecipe& recipe)
 {
-	return holds(folder + kContentFile, recipe.content) && fs::exists(folder + "/log.rawlog") &&
-	       fs::exists(folder + "/log_ground_truth.tum");
+	if (!holds(folder + kContentFile, recipe.content)) return false;
+	if (fs::exists(folder + kSizeFile)) return holds(folder + kSizeFile, sizeOf(folder));
+	return fs::exists(folder + "/log.rawlog") && fs::exists(folder + "/log_ground_truth.tum");
 }
 
 /** A folder that is being filled, beside the place that it will have, under a name that no other program's has. While it is, it is locked:
@@ -96,6 +113,7 @@ Job SimulationCache::job(const LogRecipe& recipe) const
 	job.cost_s = recipe.cost_s;
 	job.succeeded = [=]
 	{
+		writeAtomically(making->path() + kSizeFile, sizeOf(making->path()));
 		writeAtomically(making->path() + kContentFile, recipe.content);
 		// Another measurement with the same cache may have been faster: its programs may be reading that one.
 		if (recipe.cached && isWhole(folder, recipe)) return making->remove();

@@ -33,10 +33,10 @@ struct JobReport
 	double took_s = 0;         //!< 0: there was nothing to do
 	size_t done = 0, total = 0;
 	double elapsed_s = 0;
-	double left_s = -1;  //!< negative while nothing has been done that tells
+	double left_s = 0;
 
 	/** Of the time, that has passed. */
-	double fraction() const { return left_s < 0 ? 0 : left_s > 0 ? elapsed_s / (elapsed_s + left_s) : 1; }
+	double fraction() const { return left_s > 0 ? elapsed_s / (elapsed_s + left_s) : 1; }
 };
 
 /** "[3/40] 01:20, 12:30 left  run seq05-s1-viwo (31.2 s)". */
