@@ -14,4 +14,5 @@ struct Command
 };
 
 Command addImport(CLI::App& cli);
+Command addAllan(CLI::App& cli);
 }  // namespace viwo::calibrate

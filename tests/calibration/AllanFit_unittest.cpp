@@ -3,6 +3,7 @@
 
 #include <viwo/calibration/AllanFit.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace viwo::testing
@@ -33,12 +34,12 @@ struct Pulls
 		sum_of_squares += pull * pull;
 		relative += reading.value / truth;
 	}
-	double mean() const { return sum / observed; }
-	double rms() const { return std::sqrt(sum_of_squares / observed); }
+	double mean() const { return sum / std::max(1, observed); }
+	double rms() const { return std::sqrt(sum_of_squares / std::max(1, observed)); }
 	void print(const char* name) const
 	{
-		std::cout << "[measured] " << name << ": observed " << observed << ", value over truth " << relative / observed << ", pull mean "
-		          << mean() << ", rms " << rms() << ", truth beyond the limit " << beyond_limit << "\n";
+		std::cout << "[measured] " << name << ": observed " << observed << ", value over truth " << relative / std::max(1, observed)
+		          << ", pull mean " << mean() << ", rms " << rms() << ", truth beyond the limit " << beyond_limit << "\n";
 	}
 };
 
@@ -118,7 +119,7 @@ TEST(AllanFit, TheFlatPartIsTheBiasInstability)
 	int reached = 0;
 	for (unsigned s = 0; s < kSeries / 2; ++s)
 	{
-		const NoiseModel m = fitted(truth, 1500, 400 + s);
+		const NoiseModel m = fitted(truth, 1000, 400 + s);
 		white.add(m.white, truth.N);
 		reached += m.instability.reached ? 1 : 0;
 		instability += m.instability.value / (kSeries / 2);

@@ -121,7 +121,7 @@ int guarded(const std::string& program, const std::function<int()>& body)
 /** Options that name a file to write, in all programs. */
 bool isOutput(const CLI::Option& option)
 {
-	static const std::set<std::string> names{"output", "json", "svg", "html", "to-ply", "to-grid", "scan-graph"};
+	static const std::set<std::string> names{"output", "json", "svg", "html", "csv", "to-ply", "to-grid", "scan-graph"};
 	const auto& long_names = option.get_lnames();
 	return std::any_of(long_names.begin(), long_names.end(), [](const std::string& name) { return names.count(name) != 0; });
 }
