@@ -183,5 +183,49 @@ TEST(IntervalFactory, JoinedIntervalsEqualTheirUnion)
 	EXPECT_LT((joined.wheels->covariance() - whole.wheels->covariance()).norm() / whole.wheels->covariance().norm(), 1e-5);
 	EXPECT_NEAR(joined.imu->dt_s(), whole.imu->dt_s(), 1e-12);
 }
+
+TEST(IntervalFactory, OffsetsThatMoveCutTheWindowAnewAndKeepWhatWasJudged)
+{
+	const Streams streams;
+	const EstimatorOptions options;
+	IntervalFactory factory(options, {1, 1, 0.23});
+	Window window(options, Calibration());
+	for (int64_t t_ns = 1'013'000'000; t_ns < 1'600'000'000; t_ns += kFrame_ns)
+	{
+		auto frame = std::make_unique<Frame>();
+		frame->t_ns = t_ns;
+		if (!window.frames.empty()) frame->interval = factory.between(streams.imu, streams.wheels, window.latest().t_ns, t_ns);
+		window.frames.push_back(std::move(frame));
+	}
+	window.frames[3]->interval.wheels->scaleCovariance(100);  // slips between 1.213 s and 1.313 s
+
+	window.t_d_s = 5e-4;
+	factory.recut(window, streams.imu, streams.wheels);
+	EXPECT_EQ(window.frames[1]->interval.cut_at.t_d_s, 0) << "too small a move";
+
+	window.t_d_s = 0.03;
+	window.t_w_s = -0.02;
+	factory.recut(window, streams.imu, streams.wheels);
+	double slipping_s = 0;
+	for (size_t i = 1; i < window.frames.size(); ++i)
+	{
+		const int64_t begin_ns = window.frames[i - 1]->t_ns;
+		const Interval& cut = window.frames[i]->interval;
+		EXPECT_EQ(cut.cut_at.t_d_s, 0.03);
+		EXPECT_EQ(cut.imu->t_begin_ns(), begin_ns + 30'000'000);
+		EXPECT_NEAR(cut.wheels->dt_s(), 0.1, 1e-12);
+		IntervalFactory direct(options, {1, 1, 0.23});
+		const Interval in_wheel_clock =
+		    direct.between(streams.imu, streams.wheels, begin_ns + 50'000'000, begin_ns + 50'000'000 + kFrame_ns);
+		EXPECT_EQ(cut.wheels->dp(), in_wheel_clock.wheels->dp());
+		for (const WheelSegment& s : cut.wheels->segments()) slipping_s += s.variance_scale > 1 ? s.dt_s : 0;
+	}
+	EXPECT_NEAR(slipping_s, 0.1, 0.051) << "as long as before, to half a sample at each end";
+
+	window.t_d_s = 5;
+	factory.recut(window, streams.imu, streams.wheels);
+	EXPECT_EQ(window.frames[1]->interval.cut_at.t_d_s, 0.03) << "where no samples are, nothing is cut";
+	EXPECT_EQ(factory.offsets().t_d_s, 0.03);
+}
 }  // namespace
 }  // namespace viwo

@@ -65,6 +65,29 @@ TEST_F(OdometryRun, WritesAllOutputsAndReportsProgress)
 	EXPECT_EQ(summary().at("first_pose").at("v_WB_in_B_m_s").size(), 3u);
 }
 
+TEST_F(OdometryRun, SummaryTellsWhatWasCalibratedAndHowWell)
+{
+	const nlohmann::json given = (runOdometry(options()), summary().at("calibration"));
+	EXPECT_EQ(given.at("T_BO").at("state"), "given");
+	EXPECT_EQ(given.at("wheel_clock").at("state"), "given");
+	EXPECT_GT(given.at("wheels").at("deviation").at("track_m").get<double>(), 0);
+
+	OdometryRunOptions calibrating = options();
+	calibrating.odometry.rawlog.wheel_time_offset_s = 0.003;
+	calibrating.odometry.estimator.factors.estimate_T_BO = true;
+	calibrating.odometry.estimator.factors.estimate_wheel_time_offset = true;
+	runOdometry(calibrating);
+	const nlohmann::json found = summary().at("calibration");
+	EXPECT_EQ(found.at("T_BO").at("state"), "held") << "20 deg are too little of a turn";
+	EXPECT_EQ(found.at("T_BO").at("not_observed"), "z of O");
+	EXPECT_TRUE(found.at("T_BO").at("deviation").at("p_in_O_m").at(2).is_null());
+	EXPECT_EQ(found.at("T_BO").at("q_xyzw"), given.at("T_BO").at("q_xyzw"));
+	EXPECT_EQ(found.at("wheel_clock").at("state"), "held");
+	EXPECT_EQ(found.at("wheel_clock").at("offset_s"), 0.003);
+	EXPECT_EQ(found.at("wheel_clock").at("deviation_s"), 0.02);
+	EXPECT_EQ(found.at("camera_clock").at("state"), "given") << "no camera in this mode";
+}
+
 TEST_F(OdometryRun, InterruptionLeavesValidFilesUpToThere)
 {
 	int frames = 0;

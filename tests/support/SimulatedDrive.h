@@ -97,6 +97,7 @@ struct DriveResult
 	EstimatorCounters counters;
 	Status status = Status::waiting;
 	CalibrationEstimate calibration;
+	CalibrationDeviations deviations;
 	size_t frames_without_pose = 0;
 	double first_pose_s = -1;  //!< after the first frame
 
@@ -130,11 +131,10 @@ inline DriveResult runDrive(const Drive& drive, const EstimatorOptions& options,
 	size_t i = 0, w = 0;
 	for (const FeatureFrame& frame : drive.frames)
 	{
-		const auto reached = [&](const auto& samples, size_t next) { return next > 0 && samples[next - 1].t_ns >= frame.t_ns; };
-		while (i < drive.imu.size() && !reached(drive.imu, i) && drive.imu[i].t_ns <= frame.t_ns + kWait_ns)
-			estimator.addImu(drive.imu[i++]);
-		while (w < drive.wheels.size() && !reached(drive.wheels, w) && drive.wheels[w].t_ns <= frame.t_ns + kWait_ns)
-			estimator.addWheels(drive.wheels[w++]);
+		const auto due = [](const auto& samples, size_t next, int64_t t_ns)
+		{ return next < samples.size() && (next == 0 || samples[next - 1].t_ns < t_ns) && samples[next].t_ns <= t_ns + kWait_ns; };
+		while (due(drive.imu, i, estimator.imuNeededFor(frame.t_ns))) estimator.addImu(drive.imu[i++]);
+		while (due(drive.wheels, w, estimator.wheelsNeededFor(frame.t_ns))) estimator.addWheels(drive.wheels[w++]);
 		const FrameEstimate estimate = estimator.addFrame(frame);
 		result.estimates.push_back(estimate);
 		if (estimate.has_pose && (result.trajectory.empty() || estimate.t_ns > result.trajectory.poses().back().t_ns))
@@ -147,6 +147,7 @@ inline DriveResult runDrive(const Drive& drive, const EstimatorOptions& options,
 	result.counters = estimator.counters();
 	result.status = estimator.status();
 	result.calibration = estimator.calibration();
+	result.deviations = estimator.calibrationDeviations();
 	return result;
 }
 

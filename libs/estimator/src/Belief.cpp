@@ -11,6 +11,20 @@ namespace
 {
 /** A state that is not to be estimated: small against anything that matters, large enough for the arithmetic. */
 constexpr double kFixed = 1e-6;
+
+/** Along O's axes the height of B over the floor is no more than assumed: planar motion does not show it. */
+Belief::Matrix6 mountingCovariance(const EstimatorOptions& options, const Pose3& T_BO)
+{
+	const PriorOptions& p = options.priors;
+	const bool is_free = options.freeMounting();
+	const double sigma_m = is_free ? p.T_BO_translation_m : kFixed, sigma_rad = is_free ? p.T_BO_rotation_deg * kDegree : kFixed;
+	const Eigen::Matrix3d R_BO = T_BO.R.toRotationMatrix();
+	Belief::Matrix6 covariance = Belief::Matrix6::Zero();
+	covariance.topLeftCorner<3, 3>() =
+	    R_BO * Eigen::Vector3d(square(sigma_m), square(sigma_m), square(kFixed)).asDiagonal() * R_BO.transpose();
+	covariance.diagonal().tail<3>().setConstant(square(sigma_rad));
+	return covariance;
+}
 }  // namespace
 
 Belief::Matrix6 Belief::biasCovarianceAt(int64_t t_ns, const ImuNoise& noise) const
@@ -36,6 +50,10 @@ Belief nominalBelief(const EstimatorOptions& options, const Calibration& calibra
 	b.wheels = calibration.wheels;
 	const Eigen::Vector3d wheels_sigma(p.wheel_scale, p.wheel_scale, p.track_relative * b.wheels.track_m);
 	b.wheels_covariance.diagonal() = free_wheels ? Eigen::Vector3d(wheels_sigma.cwiseAbs2()) : Eigen::Vector3d::Constant(square(kFixed));
+	b.T_BO = calibration.T_BO();
+	b.T_BO_covariance = mountingCovariance(options, b.T_BO);
+	b.t_d_variance_s2 = square(options.freeCameraOffset() ? p.camera_clock_s : kFixed);
+	b.t_w_variance_s2 = square(options.freeWheelOffset() ? p.wheel_clock_s : kFixed);
 	return b;
 }
 }  // namespace viwo

@@ -6,6 +6,9 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "ClockOffsets.h"
+#include "Excitation.h"
+
 namespace viwo
 {
 /** What is held of biases and calibration before a window has measured anything: the configured priors, or what the window before it had
@@ -20,7 +23,12 @@ struct Belief
 	Matrix6 T_BC_covariance = Matrix6::Zero();  //!< tangent of a pose block
 	WheelIntrinsics wheels;
 	Eigen::Matrix3d wheels_covariance = Eigen::Matrix3d::Zero();  //!< of (k_left, k_right, track_m)
-	std::optional<int64_t> found_ns;                              //!< nothing: not found, but assumed
+	Pose3 T_BO;
+	Matrix6 T_BO_covariance = Matrix6::Zero();  //!< tangent of a pose block
+	ClockOffsets offsets;
+	double t_d_variance_s2 = 0, t_w_variance_s2 = 0;
+	Excitation excitation;            //!< what the motion has shown so far
+	std::optional<int64_t> found_ns;  //!< nothing: not found, but assumed
 
 	/** Biases walk away from where they were found. */
 	Matrix6 biasCovarianceAt(int64_t t_ns, const ImuNoise& noise) const;

@@ -1,5 +1,7 @@
+#include "CalibrationCovariance.h"
 #include "EstimatorImpl.h"
 #include "ImuPreintegration.h"
+#include "OnlineCalibration.h"
 #include "Propagation.h"
 #include "StateOrder.h"
 #include "WheelPreintegration.h"
@@ -19,6 +21,9 @@ namespace
 /** Of the covariance of the wheels while the robot stands: they have no noise then, and what they say of the heading must outlast minutes.
  */
 constexpr double kStandstillTrust = 1e-5;
+
+/** How far offsets may move while intervals of a window last. */
+constexpr double kOffsetMargin_s = 0.5;
 
 /** Before the start only the rotation is known, from the gyro: enough to tell keyframes. */
 void predictRotation(Frame& frame, const Frame& before)
@@ -45,8 +50,28 @@ FrameEstimate Estimator::Impl::processFrame(const FeatureFrame& features)
 	else
 		runOnWindow(features, out);
 	out.status = status.now();
+	out.t_ns = emittedStamp(features.t_ns);
 	forgetSamplesBefore(features.t_ns);
 	return out;
+}
+
+/** How far samples must reach for an interval up to a frame: it is cut at the estimate's offsets or at those of the other intervals. */
+int64_t Estimator::Impl::imuNeeded(int64_t t_frame_ns) const
+{
+	return std::max(window.offsets().imuTime(t_frame_ns), intervals.offsets().imuTime(t_frame_ns));
+}
+int64_t Estimator::Impl::wheelsNeeded(int64_t t_frame_ns) const
+{
+	return std::max(window.offsets().wheelTime(t_frame_ns), intervals.offsets().wheelTime(t_frame_ns));
+}
+
+/** Stamps do not go back where an offset does. */
+int64_t Estimator::Impl::emittedStamp(int64_t t_frame_ns)
+{
+	int64_t t_ns = window.offsets().imuTime(t_frame_ns);
+	if (last_emitted_ns) t_ns = std::max(t_ns, *last_emitted_ns + 1);
+	last_emitted_ns = t_ns;
+	return t_ns;
 }
 
 void Estimator::Impl::runOnWindow(const FeatureFrame& features, FrameEstimate& out)
@@ -54,6 +79,7 @@ void Estimator::Impl::runOnWindow(const FeatureFrame& features, FrameEstimate& o
 	Interval interval;
 	{
 		Stage stage(hook, "preintegrate");
+		if (running) intervals.recut(window, imu, wheel_samples);
 		if (last_frame_ns) interval = intervals.between(imu, wheel_samples, *last_frame_ns, features.t_ns);
 	}
 	if (last_frame_ns && !interval.imu) loseWindow("no IMU samples between two frames", running ? learnedBelief(window) : window.belief);
@@ -71,9 +97,25 @@ void Estimator::Impl::runOnWindow(const FeatureFrame& features, FrameEstimate& o
 		carryOnWithoutWindow(out);
 		return;
 	}
+	slide();
+}
+
+void Estimator::Impl::slide()
+{
 	Stage stage(hook, "marginalize");
 	const Fate fate = advanceWindow(window);
-	if (fate == Fate::kept_growing || fate == Fate::kept_oldest_marginalized) ++counters.keyframes;
+	if (fate != Fate::kept_growing && fate != Fate::kept_oldest_marginalized) return;
+	++counters.keyframes;
+	if ((!options.calibratesWheels() && !options.calibratesClocks()) || window.frames.size() < 3) return;
+	const size_t kept = window.frames.size() - 2;
+	const bool camera_tracks = !options.useCamera() || status.now() == Status::tracking;
+	noteExcitation(window, *window.frames[kept - 1], *window.frames[kept], camera_tracks);
+}
+
+void Estimator::Impl::adoptCalibration()
+{
+	window.adoptMounting();
+	slip_gate.setMounting(window.calibration.T_OB);
 }
 
 void Estimator::Impl::push(const FeatureFrame& features, const Interval& interval)
@@ -127,11 +169,12 @@ void Estimator::Impl::track(FrameEstimate& out)
 		Stage stage(hook, "optimize");
 		solved = solveWindow(window, options.window.max_iterations);
 	}
-	if (!solved.usable || !plausible(latest.state()))
+	if (!solved.usable || !plausible(latest.state()) || !plausible(window.offsets()))
 	{
 		loseWindow("the window diverged", nominalBelief(options, calibration));
 		return;
 	}
+	adoptCalibration();
 	window.landmarks.assess(window.T_BC_pose());
 	updateStatus(latest.t_ns);
 	intervals.relinearize(window);
@@ -144,7 +187,8 @@ void Estimator::Impl::report(FrameEstimate& out)
 	const Frame& latest = window.latest();
 	out.has_pose = true;
 	out.state = latest.state();
-	out.T_WO = out.state.T_WB * calibration.T_BO();
+	out.state.t_ns = window.offsets().imuTime(latest.t_ns);
+	out.T_WO = out.state.T_WB * window.calibration.T_BO();
 	out.landmarks = window.landmarks.countKnown(latest);
 	if (!reckoning) reckoning.emplace(options, calibration.wheels);
 
@@ -152,13 +196,13 @@ void Estimator::Impl::report(FrameEstimate& out)
 	if (latestCovariance(window, in_window))
 	{
 		out.covariance =
-		    gauge.covarianceOf(out.T_WO, vehicleCovariance(out.state.T_WB, calibration.T_BO(), in_window.topLeftCorner<6, 6>()));
+		    gauge.covarianceOf(out.T_WO, vehicleCovariance(out.state.T_WB, window.calibration.T_BO(), in_window.topLeftCorner<6, 6>()));
 		velocity_sigma_m_s = std::sqrt(in_window.diagonal().segment<3>(StateOrder::v).maxCoeff());
 	}
 	else
 		out.covariance = reckoning->covariance();
 	last_state = out.state;
-	reckoning->reset(out.t_ns, out.T_WO, out.covariance, {out.state.v_WB.norm(), 0});
+	reckoning->reset(window.offsets().wheelTime(latest.t_ns), out.T_WO, out.covariance, {out.state.v_WB.norm(), 0});
 }
 
 void Estimator::Impl::updateStatus(int64_t t_ns)
@@ -169,9 +213,12 @@ void Estimator::Impl::updateStatus(int64_t t_ns)
 /** What neither the next interval nor the reckoning begins with. */
 void Estimator::Impl::forgetSamplesBefore(int64_t t_ns)
 {
-	const int64_t interval_ns = last_frame_ns.value_or(t_ns);
-	imu.dropBefore(interval_ns);
-	wheel_samples.dropBefore(reckoning && options.useWheels() ? std::min(interval_ns, reckoning->t_ns()) : interval_ns);
+	int64_t since_ns = last_frame_ns.value_or(t_ns);
+	// Intervals may be cut anew, with other offsets.
+	if (options.calibratesClocks() && !window.frames.empty()) since_ns = window.frames.front()->t_ns - nanoseconds(kOffsetMargin_s);
+	const int64_t wheels_ns = window.offsets().wheelTime(since_ns);
+	imu.dropBefore(window.offsets().imuTime(since_ns));
+	wheel_samples.dropBefore(reckoning && options.useWheels() ? std::min(wheels_ns, reckoning->t_ns()) : wheels_ns);
 }
 
 Estimator::Estimator(const EstimatorOptions& options, const Calibration& calibration) : impl_(std::make_unique<Impl>(options, calibration))
@@ -187,6 +234,18 @@ bool Estimator::addWheels(const WheelSample& sample)
 {
 	return impl_->wheel_samples.add(sample);
 }
+int64_t Estimator::imuTimeOf(int64_t t_frame_ns) const
+{
+	return impl_->window.offsets().imuTime(t_frame_ns);
+}
+int64_t Estimator::imuNeededFor(int64_t t_frame_ns) const
+{
+	return impl_->imuNeeded(t_frame_ns);
+}
+int64_t Estimator::wheelsNeededFor(int64_t t_frame_ns) const
+{
+	return impl_->wheelsNeeded(t_frame_ns);
+}
 FrameEstimate Estimator::addFrame(const FeatureFrame& frame)
 {
 	return impl_->processFrame(frame);
@@ -194,7 +253,7 @@ FrameEstimate Estimator::addFrame(const FeatureFrame& frame)
 
 Eigen::Quaterniond Estimator::predictCameraRotation(int64_t t_prev_ns, int64_t t_cur_ns) const
 {
-	const auto span = impl_->imu.span(t_prev_ns, t_cur_ns, impl_->options.window.reinitialize_after_gap_s);
+	const auto span = impl_->imu.span(imuTimeOf(t_prev_ns), imuTimeOf(t_cur_ns), impl_->options.window.reinitialize_after_gap_s);
 	if (!span) return Eigen::Quaterniond::Identity();
 	const Eigen::Quaterniond R_BC = impl_->window.T_BC_pose().R;
 	const Eigen::Quaterniond R = turnOver(*span, impl_->last_state ? impl_->last_state->b_g : impl_->window.belief.b_g);
@@ -266,7 +325,16 @@ std::vector<KeyFrameView> Estimator::keyFrames() const
 CalibrationEstimate Estimator::calibration() const
 {
 	const Window& w = impl_->window;
-	return {w.T_BC_pose(), w.wheelIntrinsics(), w.plane()[0], w.plane()[1], w.plane()[2]};
+	return {w.T_BC_pose(), w.wheelIntrinsics(), w.T_BO_pose(), w.t_d_s, w.t_w_s, w.plane()[0], w.plane()[1], w.plane()[2]};
+}
+
+CalibrationDeviations Estimator::calibrationDeviations() const
+{
+	return viwo::calibrationDeviations(impl_->window, impl_->running);
+}
+const Calibration& Estimator::calibrationInUse() const
+{
+	return impl_->window.calibration;
 }
 
 void Estimator::setStageHook(StageHook hook)

@@ -20,7 +20,7 @@ namespace viwo
 struct Estimator::Impl
 {
 	EstimatorOptions options;
-	Calibration calibration;
+	Calibration calibration;  //!< as given
 	ImuBuffer imu;
 	WheelBuffer wheel_samples;
 	Window window;
@@ -34,8 +34,9 @@ struct Estimator::Impl
 
 	bool running = false;  //!< the window has states
 	int64_t next_frame_id = 0;
-	std::optional<int64_t> last_asked_ns;  //!< latest frame of all
-	std::optional<int64_t> last_frame_ns;  //!< latest one in the window; intervals begin there
+	std::optional<int64_t> last_asked_ns;    //!< latest frame of all
+	std::optional<int64_t> last_emitted_ns;  //!< its time in the IMU's clock
+	std::optional<int64_t> last_frame_ns;    //!< latest one in the window; intervals begin there
 	std::optional<int64_t> last_vision_try_ns;
 	std::optional<NavState> last_state;      //!< of the last frame that the window gave
 	double velocity_sigma_m_s = 0;           //!< of that state, along its worst axis
@@ -84,6 +85,11 @@ struct Estimator::Impl
 	bool reckon(FrameEstimate& out);
 	void report(FrameEstimate& out);
 	void updateStatus(int64_t t_ns);
+	void adoptCalibration();
+	void slide();
+	int64_t emittedStamp(int64_t t_frame_ns);
+	int64_t imuNeeded(int64_t t_frame_ns) const;
+	int64_t wheelsNeeded(int64_t t_frame_ns) const;
 	bool visionDue(int64_t t_ns);
 	void forgetSamplesBefore(int64_t t_ns);
 };

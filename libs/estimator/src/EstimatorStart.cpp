@@ -26,18 +26,20 @@ bool Estimator::Impl::tryToStart(int64_t t_ns)
 	if (reckoning)
 	{
 		start = *reckoning;
-		if (!options.useWheels() || !start.advance(wheel_samples, t_ns)) start.passUnknown(t_ns);
+		const int64_t wheels_ns = window.offsets().wheelTime(t_ns);
+		if (!options.useWheels() || !start.advance(wheel_samples, wheels_ns)) start.passUnknown(wheels_ns);
 	}
 	const std::optional<StatusChange> found = findStart(t_ns, start.T_WO());
 	if (!found) return false;
 	window.landmarks.triangulate(window.T_BC_pose());
 	const SolveReport solved = solveWindow(window, kStartIterations);
-	if (!solved.usable || !plausible(window.latest().state()))
+	if (!solved.usable || !plausible(window.latest().state()) || !plausible(window.offsets()))
 	{
 		loseWindow("the first window could not be solved", nominalBelief(options, calibration));
 		return false;
 	}
 	running = true;
+	adoptCalibration();
 	status.set(found->to, t_ns, found->cause);
 	gauge.startAt(start.T_WO(), start.covariance());
 	window.landmarks.assess(window.T_BC_pose());

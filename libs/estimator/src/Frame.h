@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "ClockOffsets.h"
+
 namespace viwo
 {
 class ImuPreintegration;
@@ -18,6 +20,7 @@ struct Interval
 {
 	std::shared_ptr<ImuPreintegration> imu;
 	std::shared_ptr<WheelPreintegration> wheels;
+	ClockOffsets cut_at;  //!< by which the frames' times were turned into those of the sensors
 };
 
 /** One frame of the window: its state as solver blocks, its tracks, and the interval that leads to it. */

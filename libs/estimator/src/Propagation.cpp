@@ -5,6 +5,8 @@
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 
+#include <cmath>
+
 namespace viwo
 {
 namespace
@@ -13,6 +15,8 @@ namespace
 constexpr double kMaxSpeed_m_s = 60;
 constexpr double kMaxAccBias_m_s2 = 3;
 constexpr double kMaxGyroBias_rad_s = 0.5;
+
+constexpr double kMaxOffset_s = 0.4;
 
 NavState step(const NavState& s, const ImuSample& a, const ImuSample& b, double gravity_m_s2)
 {
@@ -68,5 +72,10 @@ bool plausible(const NavState& s)
 	const bool finite =
 	    s.T_WB.p.allFinite() && s.T_WB.R.coeffs().allFinite() && s.v_WB.allFinite() && s.b_a.allFinite() && s.b_g.allFinite();
 	return finite && s.v_WB.norm() < kMaxSpeed_m_s && s.b_a.norm() < kMaxAccBias_m_s2 && s.b_g.norm() < kMaxGyroBias_rad_s;
+}
+
+bool plausible(const ClockOffsets& offsets)
+{
+	return std::abs(offsets.t_d_s) < kMaxOffset_s && std::abs(offsets.t_w_s) < kMaxOffset_s;
 }
 }  // namespace viwo

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "ClockOffsets.h"
+
 namespace viwo
 {
 class ImuPreintegration;
@@ -22,4 +24,6 @@ Eigen::Quaterniond turnOver(const std::vector<ImuSample>& samples, const Eigen::
 
 /** Whether a robot can have this state: it is finite, and neither velocity nor biases are out of this world. */
 bool plausible(const NavState& state);
+/** Whether clocks can be so far apart: no further than samples are kept. */
+bool plausible(const ClockOffsets& offsets);
 }  // namespace viwo

@@ -32,6 +32,7 @@ class SlipGate
 	/** Slips, where pauses shorter than a second do not start a new one. */
 	int events() const { return events_; }
 	void reset() { steps_.clear(); }
+	void setMounting(const Pose3& T_OB) { calibration_.T_OB = T_OB; }
 
    private:
 	struct Step

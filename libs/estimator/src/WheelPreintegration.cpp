@@ -130,6 +130,13 @@ bool WheelPreintegration::raiseVarianceScale(double least)
 	return raised;
 }
 
+void WheelPreintegration::setVarianceScales(const std::vector<double>& scales)
+{
+	assert(scales.size() == segments_.size());
+	for (size_t i = 0; i < scales.size(); ++i) segments_[i].variance_scale = scales[i];
+	repropagate(intrinsics_);
+}
+
 void WheelPreintegration::reset()
 {
 	dt_s_ = distance_m_ = 0;

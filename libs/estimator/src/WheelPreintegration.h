@@ -50,6 +50,9 @@ class WheelPreintegration
 	/** Trusts no stretch more than this: lower variance scales are raised to it, others stay. @return whether any was lower. */
 	bool raiseVarianceScale(double least);
 
+	/** One for each segment. */
+	void setVarianceScales(const std::vector<double>& scales);
+
 	double dt_s() const { return dt_s_; }
 	/** Length of O's path, sum of |v| dt at intrinsics(). */
 	double distance_m() const { return distance_m_; }

@@ -154,6 +154,16 @@ void addStartPriors(Window& w, Frame& gauge, double velocity_sigma_m_s)
 	if (o.useCamera()) add(StatePrior::fromCovariance(BlockShape::pose(), w.T_BC.data(), belief.T_BC_covariance), w.T_BC.data());
 	if (o.useWheelFactor())
 		add(StatePrior::fromCovariance(BlockShape::euclidean(3), w.wheels.data(), belief.wheels_covariance), w.wheels.data());
+	const auto addOffset = [&](double* offset_s, double variance_s2) {
+		add(std::make_shared<StatePrior>(BlockShape::euclidean(1), offset_s, Eigen::VectorXd::Constant(1, std::sqrt(variance_s2))),
+		    offset_s);
+	};
+	if (o.calibratesWheels() || o.freeCameraOffset()) addOffset(&w.t_d_s, belief.t_d_variance_s2);
+	if (o.calibratesWheels())
+	{
+		addOffset(&w.t_w_s, belief.t_w_variance_s2);
+		add(StatePrior::fromCovariance(BlockShape::pose(), w.T_BO.data(), belief.T_BO_covariance), w.T_BO.data());
+	}
 
 	if (!o.usePlaneFactor() || o.factors.plane_pairwise) return;
 	const double tilt_sigma = o.priors.plane_tilt_deg * kDegree;

@@ -1,6 +1,8 @@
 #include "Window.h"
 
 #include "ImuPreintegration.h"
+#include "OnlineCalibration.h"
+#include "TimeShift.h"
 #include "WheelPreintegration.h"
 #include "residuals/BlockAlgebra.h"
 #include "residuals/ImuResidual.h"
@@ -44,8 +46,15 @@ void addInertial(Window& w, std::vector<Factor>& factors)
 		Frame& a = *w.frames[i - 1];
 		Frame& b = *w.frames[i];
 		if (!b.interval.imu) continue;
-		if (!b.imu_factor) b.imu_factor = std::make_shared<ImuResidual>(*b.interval.imu, w.options.noise.gravity_m_s2);
-		factors.push_back({b.imu_factor, nullptr, {a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data()}});
+		const double gravity_m_s2 = w.options.noise.gravity_m_s2;
+		Factor factor{nullptr, nullptr, {a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data()}};
+		if (w.options.freeCameraOffset()) factor.blocks.push_back(&w.t_d_s);
+		if (!b.imu_factor && w.options.freeCameraOffset())
+			b.imu_factor = std::make_shared<ImuResidual>(*b.interval.imu, gravity_m_s2,
+			                                             ImuTimeShift{significantShiftJacobian(*b.interval.imu), b.interval.cut_at.t_d_s});
+		if (!b.imu_factor) b.imu_factor = std::make_shared<ImuResidual>(*b.interval.imu, gravity_m_s2);
+		factor.cost = b.imu_factor;
+		factors.push_back(factor);
 	}
 }
 
@@ -57,8 +66,14 @@ void addWheels(Window& w, std::vector<Factor>& factors)
 		Frame& a = *w.frames[i - 1];
 		Frame& b = *w.frames[i];
 		if (!b.interval.wheels) continue;
+		const bool calibrates = w.options.calibratesWheels() && rolled(*b.interval.wheels);
+		if (!b.wheel_factor && calibrates)
+			b.wheel_factor = std::make_shared<WheelResidual>(
+			    *b.interval.wheels, WheelTimeShift{significantWheelShift(a, b, w.calibration.T_OB), b.interval.cut_at.wheelShift_s()});
 		if (!b.wheel_factor) b.wheel_factor = std::make_shared<WheelResidual>(*b.interval.wheels, w.calibration.T_BO());
-		factors.push_back({b.wheel_factor, nullptr, {a.pose.data(), b.pose.data(), w.wheels.data()}});
+		Factor factor{b.wheel_factor, nullptr, {a.pose.data(), b.pose.data(), w.wheels.data()}};
+		if (calibrates) factor.blocks.insert(factor.blocks.end(), {w.T_BO.data(), &w.t_d_s, &w.t_w_s});
+		factors.push_back(factor);
 	}
 }
 
@@ -80,11 +95,15 @@ void addFloor(Window& w, std::vector<Factor>& factors)
 		if (!w.options.usePlaneFactor() || frame->standing || (pairwise && frame == w.frames.front())) continue;
 		if (!frame->plane_factor && pairwise)
 			frame->plane_factor = std::make_shared<PairPlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
+		if (!frame->plane_factor && w.options.freeMounting())
+			frame->plane_factor = std::make_shared<PlaneResidual>(sigma_tilt_rad, sigma_height_m);
 		if (!frame->plane_factor)
 			frame->plane_factor = std::make_shared<PlaneResidual>(w.calibration.T_BO(), sigma_tilt_rad, sigma_height_m);
 		double* const reference = pairwise ? w.frames.front()->pose.data() : w.plane().data();
 		if (pairwise)
 			factors.push_back({frame->plane_factor, loss, {reference, frame->pose.data()}});
+		else if (w.options.freeMounting())
+			factors.push_back({frame->plane_factor, loss, {frame->pose.data(), reference, w.T_BO.data()}});
 		else
 			factors.push_back({frame->plane_factor, loss, {frame->pose.data(), reference}});
 	}
@@ -139,6 +158,11 @@ void Window::clear(const Belief& before)
 	landmarks.clear();
 	poseToBlock(belief.T_BC, T_BC.data());
 	wheels = {belief.wheels.k_left, belief.wheels.k_right, belief.wheels.track_m};
+	poseToBlock(belief.T_BO, T_BO.data());
+	t_d_s = belief.offsets.t_d_s;
+	t_w_s = belief.offsets.t_w_s;
+	excitation = belief.excitation;
+	adoptMounting();
 	planes = {};
 	current_plane = 0;
 	start_priors.clear();
@@ -151,9 +175,21 @@ Pose3 Window::T_BC_pose() const
 	return poseFromBlock(T_BC.data());
 }
 
+Pose3 Window::T_BO_pose() const
+{
+	return poseFromBlock(T_BO.data());
+}
+
 WheelIntrinsics Window::wheelIntrinsics() const
 {
 	return {wheels[0], wheels[1], wheels[2]};
+}
+
+void Window::adoptMounting()
+{
+	if (!options.freeMounting()) return;
+	calibration.T_OB = T_BO_pose().inverse();
+	calibration.T_OC = calibration.T_OB * T_BC_pose();
 }
 
 std::vector<Factor> collectFactors(Window& window)

@@ -1,7 +1,9 @@
 #include "WindowSolver.h"
 
+#include "OnlineCalibration.h"
 #include "StateOrder.h"
 #include "residuals/LinearPrior.h"
+#include "residuals/PartialPoseManifold.h"
 #include "residuals/PoseManifold.h"
 
 #include <viwo/sfm/ScopedQuietLog.h>
@@ -11,6 +13,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -19,9 +23,10 @@ namespace viwo
 {
 namespace
 {
-bool isLandmark(const BlockShape& shape)
+/** Offsets are one number, too, but meet each other in the wheel factors. */
+bool isLandmark(const Window& window, const double* block, const BlockShape& shape)
 {
-	return shape.ambient == 1;
+	return shape.ambient == 1 && block != &window.t_d_s && block != &window.t_w_s;
 }
 
 /** Ceres orders the blocks of a group by their addresses: copies in one array, in the order of the factors, make that order repeatable. */
@@ -60,6 +65,37 @@ class StateCopies
 	std::vector<State> states_;
 	std::vector<double> values_;
 };
+
+/** In which directions the solver may move each state. */
+class StateManifolds
+{
+   public:
+	explicit StateManifolds(const Window& window) : window_(window), freedom_(freedomOf(window))
+	{
+		const CalibrationFreedom& f = freedom_;
+		if (f.mounting())
+			mounting_ =
+			    std::make_unique<PartialPoseManifold>(std::array<bool, 6>{f.lever_arm, f.lever_arm, f.lever_arm, f.tilt, f.tilt, f.yaw});
+	}
+
+	ceres::Manifold* of(const StateCopies::State& state)
+	{
+		if (mounting_ && state.original == window_.T_BO.data()) return mounting_.get();
+		return state.shape.kind == BlockKind::pose ? &pose_ : nullptr;
+	}
+	bool held(const StateCopies::State& state) const
+	{
+		const double* const block = state.original;
+		return (block == window_.T_BO.data() && !freedom_.mounting()) || (block == &window_.t_d_s && !freedom_.camera_offset) ||
+		       (block == &window_.t_w_s && !freedom_.wheel_offset);
+	}
+
+   private:
+	const Window& window_;
+	CalibrationFreedom freedom_;
+	PoseManifold pose_;
+	std::unique_ptr<PartialPoseManifold> mounting_;
+};
 }  // namespace
 
 SolveReport solveWindow(Window& window, int max_iterations)
@@ -71,7 +107,7 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
 	problem_options.disable_all_safety_checks = true;
 	ceres::Problem problem(problem_options);
-	PoseManifold pose_manifold;
+	StateManifolds manifolds(window);
 	ceres::Solver::Options options;
 	auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
 	options.linear_solver_ordering = ordering;
@@ -80,8 +116,9 @@ SolveReport solveWindow(Window& window, int max_iterations)
 	for (const StateCopies::State& state : copies.states())
 	{
 		double* const copy = copies.copyOf(state.original);
-		problem.AddParameterBlock(copy, state.shape.ambient, state.shape.kind == BlockKind::pose ? &pose_manifold : nullptr);
-		ordering->AddElementToGroup(copy, isLandmark(state.shape) ? 0 : 1);
+		problem.AddParameterBlock(copy, state.shape.ambient, manifolds.of(state));
+		if (manifolds.held(state)) problem.SetParameterBlockConstant(copy);
+		ordering->AddElementToGroup(copy, isLandmark(window, state.original, state.shape) ? 0 : 1);
 	}
 	for (const Factor& factor : factors)
 	{
@@ -151,33 +188,5 @@ bool latestCovariance(Window& window, Eigen::Matrix<double, 15, 15>& covariance)
 	if (!marginalCovariance(window, {window.latest().pose.data(), window.latest().motion.data()}, marginal)) return false;
 	covariance = marginal;
 	return true;
-}
-
-Belief learnedBelief(Window& window)
-{
-	Belief learned = window.belief;
-	std::vector<double*> blocks{window.latest().motion.data()};
-	if (window.options.useCamera()) blocks.push_back(window.T_BC.data());
-	if (window.options.useWheelFactor()) blocks.push_back(window.wheels.data());
-	Eigen::MatrixXd covariance;
-	if (!marginalCovariance(window, blocks, covariance)) return learned;
-
-	const NavState state = window.latest().state();
-	learned.found_ns = state.t_ns;
-	learned.b_a = state.b_a;
-	learned.b_g = state.b_g;
-	constexpr Eigen::Index biases = StateOrder::b_a - StateOrder::v, motion_size = StateOrder::size - StateOrder::v;
-	learned.bias_covariance = covariance.block<6, 6>(biases, biases);
-	if (window.options.useCamera())
-	{
-		learned.T_BC = window.T_BC_pose();
-		learned.T_BC_covariance = covariance.block<6, 6>(motion_size, motion_size);
-	}
-	if (window.options.useWheelFactor())
-	{
-		learned.wheels = window.wheelIntrinsics();
-		learned.wheels_covariance = covariance.bottomRightCorner<3, 3>();
-	}
-	return learned;
 }
 }  // namespace viwo

@@ -25,7 +25,4 @@ bool marginalCovariance(Window& window, const std::vector<double*>& blocks, Eige
  *  @return false when the matrix is not positive definite.
  */
 bool latestCovariance(Window& window, Eigen::Matrix<double, 15, 15>& covariance);
-
-/** What the window has found out about biases and calibration: what a window that follows it begins with. */
-Belief learnedBelief(Window& window);
 }  // namespace viwo

@@ -170,8 +170,8 @@ bool Odometry::Impl::makeEstimator(bool at_end)
 
 bool Odometry::Impl::covered(int64_t t_ns) const
 {
-	const bool imu = !est().useImu() || latest_imu_ns >= t_ns;
-	const bool wheels = !est().useWheels() || latest_wheels_ns >= t_ns;
+	const bool imu = !est().useImu() || latest_imu_ns >= estimator->imuNeededFor(t_ns);
+	const bool wheels = !est().useWheels() || latest_wheels_ns >= estimator->wheelsNeededFor(t_ns);
 	return (imu && wheels) || secondsBetween(t_ns, stream.now_ns()) > OdometryOptions::kMaxWait_s;
 }
 
@@ -219,7 +219,7 @@ void Odometry::Impl::process(int64_t t_ns, const ImageRef* image)
 {
 	if (last_frame_ns && t_ns <= *last_frame_ns) return;
 	Stage whole(*this, "frame");
-	emitImuRate(t_ns);
+	emitImuRate(estimator->imuTimeOf(t_ns));
 	FeatureFrame features;
 	features.t_ns = t_ns;
 	if (image && est().useCamera()) features = track(t_ns, *image);
@@ -230,7 +230,7 @@ void Odometry::Impl::process(int64_t t_ns, const ImageRef* image)
 		Stage s(*this, "estimate");
 		latest = estimator->addFrame(features);
 	}
-	if (latest.has_pose) trajectory.push_back({t_ns, latest.T_WO});
+	if (latest.has_pose) trajectory.push_back({latest.t_ns, latest.T_WO});
 	logStatus();
 	if (on_frame) on_frame(latest);
 }
@@ -238,7 +238,7 @@ void Odometry::Impl::process(int64_t t_ns, const ImageRef* image)
 void Odometry::Impl::emitImuRate(int64_t t_until_ns)
 {
 	if (!on_imu_rate || !last_frame_ns) return;
-	for (const NavState& state : estimator->propagate(*last_frame_ns, t_until_ns)) on_imu_rate(state);
+	for (const NavState& state : estimator->propagate(latest.t_ns, t_until_ns)) on_imu_rate(state);
 }
 
 void Odometry::Impl::logStatus()
@@ -344,8 +344,13 @@ CalibrationEstimate Odometry::calibrationEstimate() const
 {
 	return impl_->estimator ? impl_->estimator->calibration() : CalibrationEstimate();
 }
+CalibrationDeviations Odometry::calibrationDeviations() const
+{
+	return impl_->estimator ? impl_->estimator->calibrationDeviations() : CalibrationDeviations();
+}
 const Calibration* Odometry::calibration() const
 {
+	if (impl_->estimator) return &impl_->estimator->calibrationInUse();
 	return impl_->calibration ? &*impl_->calibration : nullptr;
 }
 const std::map<std::string, RejectionCounts>& Odometry::observationCounts() const

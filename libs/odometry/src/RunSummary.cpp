@@ -1,5 +1,7 @@
 #include "RunSummary.h"
 
+#include "CalibrationSummary.h"
+
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/PeakMemory.h>
 #include <viwo/core/Time.h>
@@ -64,14 +66,6 @@ Json timeToStatus(const Odometry& odometry, Status status)
 	return nullptr;
 }
 
-Json calibrationJson(const Odometry& odometry)
-{
-	const CalibrationEstimate c = odometry.calibrationEstimate();
-	const auto& q = c.T_BC.R;
-	return {{"T_BC", {{"p_m", {c.T_BC.p.x(), c.T_BC.p.y(), c.T_BC.p.z()}}, {"q_xyzw", {q.x(), q.y(), q.z(), q.w()}}}},
-	        {"wheels", {{"k_left", c.wheels.k_left}, {"k_right", c.wheels.k_right}, {"track_m", c.wheels.track_m}}},
-	        {"floor", {{"tilt_x_rad", c.plane_tilt_x_rad}, {"tilt_y_rad", c.plane_tilt_y_rad}, {"height_m", c.plane_height_m}}}};
-}
 Json gapsJson(const GapLog& log, int64_t first_frame_ns)
 {
 	Json gaps = Json::array();
@@ -152,7 +146,7 @@ void writeSummary(const std::string& path, const OdometryRunOptions& options, co
 	j["wheel_gaps"] = gaps.count(options.odometry.rawlog.odometry_label);
 	j["status_changes"] = statusJson(odometry);
 	j["gaps"] = gapsJson(gaps, odometry.firstFrame_ns());
-	j["calibration"] = calibrationJson(odometry);
+	j["calibration"] = calibrationJson(odometry, options.odometry);
 	j["observations"] = observationsJson(odometry, counts);
 	j["wall_time_s"] = result.wall_time_s;
 	j["realtime_factor"] = result.wall_time_s > 0 ? result.duration_s / result.wall_time_s : 0.0;

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,13 +38,13 @@ struct StatusChange
 /** What one frame gave. */
 struct FrameEstimate
 {
-	int64_t t_ns = 0;
+	int64_t t_ns = 0;  //!< by the IMU's clock: the frame's stamp and the camera's offset; never goes back where that does
 	bool has_pose = false;
 	Status status = Status::waiting;
 	NavState state;  //!< of B in W
 	Pose3 T_WO;
-	/** Of T_WO relative to the first pose, over new starts too: position in W's axes (m), rotation vector in O's axes (rad, right
-	 * perturbation): x y z roll pitch yaw. */
+	/** Of T_WO relative to the first pose, over new starts too, and without what T_BO itself may be off: position in W's axes (m), rotation
+	 * vector in O's axes (rad, right perturbation): x y z roll pitch yaw. */
 	Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 	bool slip = false;
 	bool standing = false;
@@ -84,7 +85,22 @@ struct CalibrationEstimate
 {
 	Pose3 T_BC;
 	WheelIntrinsics wheels;
+	Pose3 T_BO;
+	double camera_time_offset_s = 0, wheel_time_offset_s = 0;  //!< on top of what stamps had added: t_IMU = t_CAM + t_d = t_WHEEL + t_w
 	double plane_tilt_x_rad = 0, plane_tilt_y_rad = 0, plane_height_m = 0;
+};
+
+/** Standard deviations of what is estimated; what is not has none. */
+struct CalibrationDeviations
+{
+	using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+	std::optional<Vector6> T_BC;            //!< position in B (m), rotation about C's axes (rad)
+	std::optional<Eigen::Vector3d> wheels;  //!< k_left, k_right, track_m
+	std::optional<Vector6> T_BO;            //!< position along O's axes (m; z is held: planar motion does not show it), rotation about them
+	std::optional<double> camera_time_offset_s, wheel_time_offset_s;
+	/** Whether the motion has shown enough of it. Until then it is held where it was. */
+	bool lever_arm_started = false, yaw_started = false, camera_offset_started = false, wheel_offset_started = false;
 };
 
 /** Sliding-window estimator of Niu et al., Sec. 4 to 6: samples and tracks in, states out. Knows no image, no file and no clock.
@@ -105,16 +121,23 @@ class Estimator
 	bool addImu(const ImuSample& sample);
 	bool addWheels(const WheelSample& sample);
 
-	/** The next frame; what IMU and wheels there are up to its stamp must have been added. An empty frame asks for a pose at that time. One
-	 * that is not later than the last is ignored. Where the IMU does not reach it, the wheels alone give its pose, and without wheels there
-	 * is none.
+	/** A frame's stamp by the IMU's clock, as far as the offset is known. */
+	int64_t imuTimeOf(int64_t t_frame_ns) const;
+	/** How far IMU and wheels must reach, by their own clocks, for a frame with this stamp. */
+	int64_t imuNeededFor(int64_t t_frame_ns) const;
+	int64_t wheelsNeededFor(int64_t t_frame_ns) const;
+
+	/** The next frame; what IMU and wheels there are as far as imuNeededFor() and wheelsNeededFor() ask for must have been added. An empty
+	 * frame asks for a pose at that time. One that is not later than the last is ignored. Where the IMU does not reach it, the wheels alone
+	 * give its pose, and without wheels there is none.
 	 */
 	FrameEstimate addFrame(const FeatureFrame& frame);
 
-	/** R_Cprev_Ccur from the gyro between two stamps, less the estimated bias; identity where the IMU does not cover them. */
+	/** R_Cprev_Ccur from the gyro between two frames' stamps, less the estimated bias; identity where the IMU does not cover them. */
 	Eigen::Quaterniond predictCameraRotation(int64_t t_prev_ns, int64_t t_cur_ns) const;
 
-	/** The last frame's state carried on by the IMU: one state per IMU sample in (t_after_ns, t_until_ns], before the next frame is added.
+	/** The last frame's state carried on by the IMU: one state per IMU sample in (t_after_ns, t_until_ns], in the IMU's clock, before the
+	 * next frame is added.
 	 */
 	std::vector<NavState> propagate(int64_t t_after_ns, int64_t t_until_ns) const;
 
@@ -126,6 +149,10 @@ class Estimator
 	/** Key frames of the window, oldest first. */
 	std::vector<KeyFrameView> keyFrames() const;
 	CalibrationEstimate calibration() const;
+	/** Costs about as much as a frame's covariance. */
+	CalibrationDeviations calibrationDeviations() const;
+	/** The calibration given, with T_OB as estimated so far where that is switched on. */
+	const Calibration& calibrationInUse() const;
 
 	void setStageHook(StageHook hook);
 

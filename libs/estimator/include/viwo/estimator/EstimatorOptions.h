@@ -36,6 +36,9 @@ struct FactorOptions : Options<FactorOptions>
 	bool standstill_factor = true;
 	bool estimate_wheel_intrinsics = true;
 	bool estimate_T_BC = true;
+	bool estimate_T_BO = false;
+	bool estimate_camera_time_offset = false;
+	bool estimate_wheel_time_offset = false;
 
 	template <class Visitor>
 	void visit(Visitor& v)
@@ -49,6 +52,11 @@ struct FactorOptions : Options<FactorOptions>
 		v("standstill_factor", standstill_factor, "zero-velocity factor when wheels and gyro are quiet");
 		v("estimate_wheel_intrinsics", estimate_wheel_intrinsics, "left and right scale and track as states");
 		v("estimate_T_BC", estimate_T_BC, "camera-IMU extrinsics as a state");
+		v("estimate_T_BO", estimate_T_BO, "where the wheels sit against the IMU as a state, once the motion shows it (not its z)");
+		v("estimate_camera_time_offset", estimate_camera_time_offset,
+		  "t_IMU - t_CAM as a state, on top of camera_time_offset_s, once the motion shows it");
+		v("estimate_wheel_time_offset", estimate_wheel_time_offset,
+		  "t_IMU - t_WHEEL as a state, on top of wheel_time_offset_s, once the motion shows it");
 	}
 };
 
@@ -88,6 +96,10 @@ struct PriorOptions : Options<PriorOptions>
 	double gyro_bias_rad_s = 0.01;
 	double T_BC_rotation_deg = 1.0;
 	double T_BC_translation_m = 0.01;
+	double T_BO_rotation_deg = 1.0;
+	double T_BO_translation_m = 0.02;
+	double camera_clock_s = 0.02;
+	double wheel_clock_s = 0.02;
 	double wheel_scale = 0.01;
 	double track_relative = 0.01;
 	double velocity_m_s = 0.1;
@@ -107,6 +119,10 @@ struct PriorOptions : Options<PriorOptions>
 		v("gyro_bias_rad_s", gyro_bias_rad_s, "gyroscope bias", 1e-7, 1.0);
 		v("T_BC_rotation_deg", T_BC_rotation_deg, "camera-IMU rotation", 1e-4, 45.0);
 		v("T_BC_translation_m", T_BC_translation_m, "camera-IMU lever arm", 1e-5, 1.0);
+		v("T_BO_rotation_deg", T_BO_rotation_deg, "rotation of the wheels against the IMU, where it is estimated", 1e-4, 45.0);
+		v("T_BO_translation_m", T_BO_translation_m, "their lever arm, likewise (x and y of O; z stays as it is)", 1e-5, 1.0);
+		v("camera_clock_s", camera_clock_s, "camera clock against the IMU's, likewise", 1e-6, 0.2);
+		v("wheel_clock_s", wheel_clock_s, "wheel clock against the IMU's, likewise", 1e-6, 0.2);
 		v("wheel_scale", wheel_scale, "scale of each wheel, relative", 1e-6, 0.5);
 		v("track_relative", track_relative, "track, relative", 1e-6, 0.5);
 		v("velocity_m_s", velocity_m_s, "velocity at the start", 1e-4, 100.0);
@@ -181,5 +197,12 @@ struct EstimatorOptions
 	bool useWheels() const { return mode != Mode::vio; }
 	bool useWheelFactor() const { return useWheels() && factors.wheel_factor; }
 	bool usePlaneFactor() const { return useWheels() && factors.plane_factor; }
+
+	bool freeMounting() const { return useImu() && useWheelFactor() && factors.estimate_T_BO; }
+	bool freeCameraOffset() const { return useCamera() && factors.estimate_camera_time_offset; }
+	bool freeWheelOffset() const { return useImu() && useWheelFactor() && factors.estimate_wheel_time_offset; }
+	/** Whether wheel factors act on T_BO and on the offsets. */
+	bool calibratesWheels() const { return useWheelFactor() && (freeMounting() || freeCameraOffset() || freeWheelOffset()); }
+	bool calibratesClocks() const { return freeCameraOffset() || freeWheelOffset(); }
 };
 }  // namespace viwo

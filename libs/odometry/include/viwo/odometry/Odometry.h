@@ -60,7 +60,10 @@ class Odometry : public mrpt::system::COutputLogger
 	std::vector<StatusChange> statusChanges() const;
 	EstimatorCounters counters() const;
 	CalibrationEstimate calibrationEstimate() const;
-	/** Nothing before the first observation of every sensor that the mode needs. */
+	/** Costs about as much as a frame's covariance. */
+	CalibrationDeviations calibrationDeviations() const;
+	/** With T_OB as estimated so far where that is switched on. Nothing before the first observation of every sensor that the mode needs.
+	 */
 	const Calibration* calibration() const;
 	const std::map<std::string, RejectionCounts>& observationCounts() const;
 	int64_t firstFrame_ns() const;
