@@ -12,7 +12,7 @@ std::string describeImuNoise(const ImuNoiseResult& result);
 /** What the header of the rig says of its origin. */
 std::string imuNoiseOrigin(const ImuNoiseResult& result, const std::string& program);
 
-/** @name Written to a temporary name and renamed. @throws Error when it cannot be written. @{ */
+/** @name Written to a temporary name and renamed; each throws Error when it cannot be written. */ /** @{ */
 
 /** Allan deviations of accelerometer and gyroscope with their 95 % intervals, the fitted curves, and the points that are read. */
 void saveImuNoiseSvg(const std::string& path, const ImuNoiseResult& result);

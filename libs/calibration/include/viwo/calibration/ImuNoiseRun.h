@@ -13,6 +13,7 @@
 
 namespace viwo
 {
+/** Which part of which IMU is taken. */
 struct ImuNoiseOptions
 {
 	std::vector<std::string> rawlogs;  //!< of one IMU, in any order
@@ -28,6 +29,7 @@ struct WorstAxis
 	NoiseReading reading;
 };
 
+/** What was found, axis by axis. */
 struct ImuNoiseResult
 {
 	std::string imu_label;
@@ -47,6 +49,7 @@ struct ImuNoiseResult
 	RigImu rig() const;
 };
 
+/** Hooks of a run; all may be empty. */
 struct ImuNoiseHooks
 {
 	std::function<void(double fraction, const std::string& note)> progress;
