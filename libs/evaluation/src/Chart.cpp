@@ -17,7 +17,7 @@ constexpr double kWidth = 480, kHeight = 220, kLeft = 56, kRight = 16, kTop = 36
 constexpr double kBottom = kTop + kHeight;
 constexpr int kGridLinesX = 8, kGridLinesY = 6;
 /** Figures over bars: their size, and how wide a character is at most. */
-constexpr double kFigure = 11, kFigureCharacter = 6.4;
+constexpr double kFigure = 11, kFigureCharacter = 7;
 
 /** One axis: figures to places. */
 class Axis
@@ -118,14 +118,24 @@ double widestFigure(const BarChart& chart)
 	return kFigureCharacter * static_cast<double>(characters);
 }
 
+/** Of the letters below the groups: their names stay apart. */
+double groupSize(const BarChart& chart, double group_width)
+{
+	constexpr double kMost = 12, kLeast = 7, kWidthOfSize = 0.62;
+	size_t characters = 1;
+	for (const std::string& group : chart.groups) characters = std::max(characters, group.size());
+	return std::clamp(0.95 * group_width / (kWidthOfSize * static_cast<double>(characters)), kLeast, kMost);
+}
+
 /** @param upright the figure is turned by a quarter: bars beside each other are narrower than their figures. */
 std::string bar(double x, double width, double top, const std::string& figure, bool upright, const std::string& fill, const SvgPalette& c)
 {
 	const double middle = x + width / 2;
-	const std::string style = "font-size=\"" + svgNumber(kFigure) + "\" fill=\"" + c.muted + "\"";
+	const double size = upright ? std::min(kFigure, width) : kFigure;
+	const std::string style = "font-size=\"" + svgNumber(size) + "\" fill=\"" + c.muted + "\"";
 	const std::string rect = "<rect x=\"" + svgNumber(x) + "\" y=\"" + svgNumber(top) + "\" width=\"" + svgNumber(width) + "\" height=\"" +
 	                         svgNumber(kBottom - top) + "\" fill=\"" + fill + "\"/>\n";
-	const std::string text = upright ? "<text transform=\"translate(" + svgNumber(middle + 0.35 * kFigure) + " " + svgNumber(top - 4) +
+	const std::string text = upright ? "<text transform=\"translate(" + svgNumber(middle + 0.35 * size) + " " + svgNumber(top - 4) +
 	                                       ") rotate(-90)\" " + style + ">" + figure + "</text>\n"
 	                                 : svgText(middle, top - 4, figure, "text-anchor=\"middle\" " + style);
 	return (top < kBottom ? rect : "") + text;
@@ -187,9 +197,10 @@ std::string toSvg(const BarChart& chart, PlotColours colours)
 			body += bar(x, 0.92 * width, std::isfinite(value) ? y.place(value) : kBottom, textOf(value, chart.decimals), upright, fill, c);
 		}
 	}
+	const std::string group_style =
+	    "text-anchor=\"middle\" font-size=\"" + svgNumber(groupSize(chart, group_width)) + "\" fill=\"" + c.muted + "\"";
 	for (size_t g = 0; g < chart.groups.size(); ++g)
-		body += svgText(kLeft + (static_cast<double>(g) + 0.5) * group_width, kBottom + 18, chart.groups[g],
-		                "text-anchor=\"middle\" font-size=\"12\" fill=\"" + c.muted + "\"");
+		body += svgText(kLeft + (static_cast<double>(g) + 0.5) * group_width, kBottom + 18, chart.groups[g], group_style);
 	const double end = svgLegend(entries, kLeft, kBottom + kAxisHeight + 4, kWidth, c, body);
 	return svgPicture(kLeft + kWidth + kRight + margin.missing(), end + 14, chart.title, kLeft + margin.missing(), c, margin.moved(body));
 }

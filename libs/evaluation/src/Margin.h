@@ -16,9 +16,9 @@ class Margin
 	/** What is missing on the left. */
 	double missing() const
 	{
-		constexpr size_t kUsual = 5;
-		constexpr double kCharacter = 6.8;
-		return characters_ > kUsual ? kCharacter * static_cast<double>(characters_ - kUsual) : 0;
+		constexpr double kThere = 29, kCharacter = 7.7;
+		const double needed = kCharacter * static_cast<double>(characters_);
+		return characters_ > 4 ? needed - kThere : 0;
 	}
 	/** The picture's parts, moved to the right by it. */
 	std::string moved(const std::string& body) const

@@ -87,8 +87,8 @@ Table errorTable(const std::vector<EstimateReport>& reports)
 	             {"ATE x-y-z", "m"},
 	             {"of length", "%"},
 	             {"yaw RMSE", "deg"},
-	             {"RPE, 1 s", "m"},
-	             {"RPE, 1 m", "%"}});
+	             {"RPE, 1\u00a0s", "m"},
+	             {"RPE, 1\u00a0m", "%"}});
 	const std::string best = smallestAte(reports);
 	for (const EstimateReport& r : reports)
 	{

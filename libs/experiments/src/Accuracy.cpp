@@ -217,9 +217,14 @@ Table ablationTable(const std::vector<DriveResult>& results)
 	for (const std::string& sequence : sequencesOf(results))
 	{
 		std::vector<std::string> cells{sequence};
+		std::vector<double> figures;
 		for (const Table::Column& column : columns)
-			if (const DriveResult* result = find(results, sequence, column.name)) cells.push_back(cell(result->median(xyz), kDecimals));
-		if (cells.size() == columns.size()) table.addRow(cells);
+			if (const DriveResult* result = find(results, sequence, column.name)) figures.push_back(result->median(xyz));
+		if (figures.size() + 1 != columns.size()) continue;
+		for (const double figure : figures) cells.push_back(cell(figure, kDecimals));
+		std::set<size_t> bold;
+		for (const size_t i : smallest(figures, kDecimals)) bold.insert(1 + i);
+		table.addRow(cells, bold);
 	}
 	return table;
 }
