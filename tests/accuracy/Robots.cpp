@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <viwo/experiments/Request.h>
+
 #include "Drives.h"
 #include "Groups.h"
 #include "RobotVariants.h"
@@ -51,10 +53,10 @@ std::vector<Row> Robots::judge(const Runner& runner) const
 	for (const RobotVariant& robot : robotVariants(VIWO_TEST_BAGS))
 	{
 		const std::vector<Score> scores = scoresOf(runner, runs(robot), kCoverage);
-		const std::string list = listOf("", each(scores, [](const Score& s) { return s.ate_m; }), 100, "cm");
-		const std::string of_m = listOf("of", each(scores, [](const Score& s) { return s.length_m; }), 1, "m");
-		rows.push_back(atMost(bars()[rows.size()], worst(each(scores, [](const Score& s) { return s.percent(); })), 1.5, "%",
-		                      list + " " + of_m + problemsOf(scores)));
+		const std::vector<double> lengths_m = each(scores, [](const Score& score) { return score.length_m; });
+		const std::string list = listOf("viwo", each(scores, [](const Score& score) { return score.ate_m; }), 100, "cm");
+		rows.push_back(atMost(bars()[rows.size()], worst(each(scores, [](const Score& score) { return score.percent(); })), 1.5, "%",
+		                      listOf("of", {median(lengths_m)}, 1, "m: ") + list + problemsOf(scores)));
 	}
 	return rows;
 }

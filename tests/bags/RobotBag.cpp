@@ -29,15 +29,6 @@ ros::Time rosTime(int64_t t_ns)
 	return time.fromNSec(static_cast<uint64_t>(t_ns));
 }
 
-template <class Message>
-Message at(int64_t t_ns, const std::string& frame)
-{
-	Message message;
-	message.header.stamp = rosTime(t_ns);
-	message.header.frame_id = frame;
-	return message;
-}
-
 class RobotBag
 {
    public:
@@ -59,7 +50,7 @@ class RobotBag
 	{
 		for (const StampedPose& pose : truth.poses())
 		{
-			auto message = at<geometry_msgs::PoseStamped>(pose.t_ns, "world");
+			auto message = stampedAt<geometry_msgs::PoseStamped>(rosTime(pose.t_ns), "world");
 			fill(message.pose, pose.T);
 			bag_.write("/ground_truth", rosTime(pose.t_ns), message);
 		}
@@ -93,14 +84,14 @@ class RobotBag
 	void addImage(const CObservationImage& image, int64_t t_ns)
 	{
 		placeOnce("camera", t_ns, image.cameraPose);
-		auto picture = at<sensor_msgs::CompressedImage>(t_ns, "camera");
+		auto picture = stampedAt<sensor_msgs::CompressedImage>(rosTime(t_ns), "camera");
 		const std::string bytes = readFile(image.image.getExternalStorageFileAbsolutePath());
 		picture.format = "jpeg";
 		picture.data.assign(bytes.begin(), bytes.end());
 		record("/camera/image_raw/compressed", t_ns, 30, picture);
 
 		const CameraModel camera = fromMrpt(image.cameraParams);
-		auto info = at<sensor_msgs::CameraInfo>(t_ns, "camera");
+		auto info = stampedAt<sensor_msgs::CameraInfo>(rosTime(t_ns), "camera");
 		info.width = static_cast<uint32_t>(camera.width_px()), info.height = static_cast<uint32_t>(camera.height_px());
 		info.distortion_model = camera.distortion() == CameraModel::Distortion::kannala_brandt ? "equidistant" : "plumb_bob";
 		info.D.assign(camera.coefficients().begin(), camera.coefficients().end());
@@ -113,7 +104,7 @@ class RobotBag
 	void addImu(const CObservationIMU& imu, int64_t t_ns)
 	{
 		placeOnce("imu", t_ns, imu.sensorPose);
-		auto message = at<sensor_msgs::Imu>(t_ns, "imu");
+		auto message = stampedAt<sensor_msgs::Imu>(rosTime(t_ns), "imu");
 		message.orientation_covariance[0] = -1;  // ROS' way of saying that there is none
 		message.linear_acceleration.x = imu.get(IMU_X_ACC), message.linear_acceleration.y = imu.get(IMU_Y_ACC);
 		message.linear_acceleration.z = imu.get(IMU_Z_ACC);
@@ -125,7 +116,7 @@ class RobotBag
 	void addOdometry(const CObservationOdometry& odometry, int64_t t_ns)
 	{
 		if (options_.four_wheels) return addJoints(odometry, t_ns);
-		auto message = at<nav_msgs::Odometry>(t_ns, "odom");
+		auto message = stampedAt<nav_msgs::Odometry>(rosTime(t_ns), "odom");
 		message.child_frame_id = "base_link";
 		message.twist.twist.linear.x = odometry.velocityLocal.vx, message.twist.twist.angular.z = odometry.velocityLocal.omega;
 		const double yaw_rad = odometry.odometry.phi();
@@ -139,7 +130,7 @@ class RobotBag
 	{
 		const double tick_rad = 2 * M_PI / options_.ticks_per_revolution;
 		const double left_rad = tick_rad * odometry.encoderLeftTicks, right_rad = tick_rad * odometry.encoderRightTicks;
-		auto state = at<sensor_msgs::JointState>(t_ns, "");
+		auto state = stampedAt<sensor_msgs::JointState>(rosTime(t_ns), "");
 		state.name = {"arm", "rear_right_wheel", "front_left_wheel", "rear_left_wheel", "front_right_wheel"};
 		state.position = {0.3, 0.9995 * right_rad, 1.0005 * left_rad, 0.9995 * left_rad, 1.0005 * right_rad};
 		record("/joint_states", t_ns, 2, state);
@@ -148,7 +139,7 @@ class RobotBag
 	void addScan(const CObservation2DRangeScan& scan, int64_t t_ns)
 	{
 		placeOnce("laser", t_ns, scan.sensorPose);
-		auto message = at<sensor_msgs::LaserScan>(t_ns, "laser");
+		auto message = stampedAt<sensor_msgs::LaserScan>(rosTime(t_ns), "laser");
 		const size_t beams = scan.getScanSize();
 		message.angle_min = -scan.aperture / 2, message.angle_max = scan.aperture / 2;
 		message.angle_increment = scan.aperture / static_cast<float>(beams - 1);

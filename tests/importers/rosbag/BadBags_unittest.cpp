@@ -129,6 +129,8 @@ int statusOfImport(const std::string& bag, const std::string& rawlog)
 // Bytes that were changed, in messages, records and index, of plain and compressed chunks: an import or one line, never a crash.
 TEST_F(BadBags, DamagedBytes)
 {
+	// A child has none of its parent's threads, and would wait for OpenCV's.
+	cv::setNumThreads(1);
 	const char* const wanted = std::getenv("VIWO_DAMAGED_BAGS");
 	const int cases = wanted != nullptr ? std::atoi(wanted) : 40;
 	std::mt19937 generator(1);
@@ -148,9 +150,6 @@ TEST_F(BadBags, DamagedBytes)
 			const int status = statusOfImport(path("damaged.bag"), path("x.rawlog"));
 			++seen[status];
 			EXPECT_LE(status, 1) << "case " << i << ": " << count << " bytes at " << at << " of " << bytes.size();
-			if (status > 1 && std::getenv("VIWO_KEEP") != nullptr)
-				writeFile(std::string(std::getenv("VIWO_KEEP")) + "/" + std::to_string(compression) + "-" + std::to_string(i) + ".bag",
-				          damaged);
 		}
 		std::cout << "[measured] compression " << compression << ": " << seen[0] << " imported, " << seen[1] << " refused\n";
 		EXPECT_GT(seen[1], cases / 20);

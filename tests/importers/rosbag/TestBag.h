@@ -32,12 +32,18 @@ inline ros::Time bagTime(int64_t t_ms)
 }
 
 template <class Message>
-Message stamped(int64_t t_ms, const std::string& frame)
+Message stampedAt(const ros::Time& time, const std::string& frame)
 {
 	Message message;
-	message.header.stamp = bagTime(t_ms);
+	message.header.stamp = time;
 	message.header.frame_id = frame;
 	return message;
+}
+
+template <class Message>
+Message stamped(int64_t t_ms, const std::string& frame)
+{
+	return stampedAt<Message>(bagTime(t_ms), frame);
 }
 
 inline geometry_msgs::TransformStamped transform(const std::string& parent, const std::string& child, const Pose3& T)
