@@ -15,4 +15,5 @@ struct Command
 
 Command addImport(CLI::App& cli);
 Command addAllan(CLI::App& cli);
+Command addEstimate(CLI::App& cli);
 }  // namespace viwo::calibrate

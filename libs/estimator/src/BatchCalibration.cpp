@@ -1,0 +1,271 @@
+#include <viwo/estimator/BatchCalibration.h>
+
+#include "calibration/BatchInformation.h"
+#include "calibration/BatchIntervals.h"
+#include "calibration/BatchProblem.h"
+#include "calibration/BatchQuality.h"
+#include "calibration/BatchSolver.h"
+#include "calibration/BatchStart.h"
+#include "residuals/BlockAlgebra.h"
+
+#include <viwo/core/Scalars.h>
+#include <viwo/core/Time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+namespace viwo
+{
+namespace
+{
+/** A parameter whose deviation stays above this share of what it was beforehand has not been observed. */
+constexpr double kObservedShare = 0.5;
+/** Rounds end once nothing moves by more than this, in its own deviations, and the noise by no more than this share. */
+constexpr double kSettled = 0.2, kSettledNoise = 0.05;
+/** Of six rows in deviations: a wheel interval beyond this is not noise; the first while the noise is the configured one. */
+constexpr double kCoarseSlipSquare = 60, kSlipSquare = 36;
+
+class BatchRun
+{
+   public:
+	BatchRun(const BatchCalibrationInput& input, const BatchCalibrationOptions& options, const EstimatorOptions& estimator,
+	         const std::function<bool(double, const std::string&)>& progress)
+	    : in_(input), options_(options), estimator_(estimator), progress_(progress), samples_(input), landmarks_({})
+	{
+	}
+
+	BatchCalibrationResult go()
+	{
+		result_.rig = in_.start;
+		result_.problem = startBatch(in_, options_, estimator_, samples_, s_);
+		if (result_.problem.empty()) alignReference();
+		if (result_.problem.empty()) run();
+		return result_;
+	}
+
+   private:
+	void run()
+	{
+		slipping_.assign(s_.frames.size(), false);
+		result_.keyframes = static_cast<int>(s_.frames.size());
+		trust_.pixel_sigma_px = kCoarseSigma_px;
+		trust_.outlier_px = kCoarseOutlier_px;
+		// The rig as it was given, all else at its best: what it costs to keep it, and a start from which all can move.
+		if (!solve({s_.T_BC.data(), s_.T_BO.data(), s_.wheels.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()}, 0)) return;
+		landmarks_.assess(poseFromBlock(s_.T_BC.data()));
+		result_.before = qualityOf(in_, s_, landmarks_);
+		for (int round = 1; round <= options_.max_rounds; ++round)
+		{
+			trust_.outlier_px = round == 1 ? kCoarseOutlier_px : estimator_.window.outlier_px;
+			if (round == 2) trust_.pixel_sigma_px = estimator_.noise.pixel_sigma_px;
+			const SensorRig before = s_.rig();
+			if (!solve({}, round)) return;
+			result_.rounds = round;
+			if (!assess()) return;
+			if (round > 2 && settled(before)) break;
+		}
+		judge();
+	}
+
+	/** Cuts the samples at the present offsets, triangulates, solves. */
+	bool solve(const std::vector<const double*>& fixed, int round)
+	{
+		constexpr int kIterations = 20;
+		if (progress_ && !progress_(static_cast<double>(round) / (options_.max_rounds + 1), "round " + std::to_string(round)))
+		{
+			result_.problem = "interrupted";
+			return false;
+		}
+		cutIntervals(samples_, estimator_, wheel_noise_ratio_, s_);
+		factors_ = collectBatch(in_, options_, estimator_, trust_, slipping_, s_, landmarks_);
+		if (!enoughImages()) return false;
+		if (solveBatch(factors_, landmarks_, fixed, kIterations) && plausible()) return true;
+		result_.problem =
+		    "the calibration diverges: the start may be too far off (mountings within some degrees and centimetres, wheels within some "
+		    "percent, clocks within some hundredths of a second), or image, IMU and wheels are not of the same drive";
+		return false;
+	}
+
+	bool enoughImages()
+	{
+		constexpr double kFewest = 10;  // sightings a key frame
+		size_t sightings = 0;
+		for (const BatchFactor& f : factors_)
+			if (f.group == BatchGroup::image) ++sightings;
+		if (static_cast<double>(sightings) >= kFewest * static_cast<double>(s_.frames.size())) return true;
+		char text[200];
+		std::snprintf(
+		    text, sizeof text,
+		    "the images have %.1f usable tracks each, a calibration needs %.0f: drive where there is texture and light, and check the "
+		    "camera's calibration and mounting",
+		    static_cast<double>(sightings) / static_cast<double>(s_.frames.size()), kFewest);
+		result_.problem = text;
+		return false;
+	}
+
+	bool plausible() const
+	{
+		const RigVector moved = rigDifference(s_.rig(), in_.start);
+		return moved.allFinite() && moved.cwiseAbs().maxCoeff() < 1 &&
+		       std::all_of(s_.frames.begin(), s_.frames.end(), [](const Frame& f) { return poseFromBlock(f.pose.data()).p.allFinite(); });
+	}
+
+	/** Deviations, noise and slip at the present states. */
+	bool assess()
+	{
+		BatchInformation information;
+		if (!information.compute(factors_))
+		{
+			result_.problem = "the equations are singular: the log has too little motion; drive starts, stops and turns to both sides";
+			return false;
+		}
+		setDeviations(information);
+		const double images = information.varianceFactor(
+		    BatchGroup::image, [](int) { return true; }, false);
+		// Forward travel and yaw are the encoders' noise; the other rows are the floor's.
+		const double wheels = information.varianceFactor(
+		    BatchGroup::wheels, [](int row) { return row == 0 || row == 5; }, true);
+		noise_change_ = std::max({std::abs(std::log(images * trust_.track_factor)), std::abs(std::log(wheels)),
+		                          std::abs(std::log(track_factor_ / trust_.track_factor))});
+		trust_.pixel_sigma_px =
+		    std::clamp(trust_.pixel_sigma_px * std::sqrt(images * trust_.track_factor), kLeastSigma_px, kCoarseSigma_px);
+		wheel_noise_ratio_ *= std::clamp(std::sqrt(wheels), 0.5, 2.0);
+		trust_.track_factor = track_factor_;
+		findSlip(result_.rounds == 1 ? kCoarseSlipSquare : kSlipSquare);
+		return true;
+	}
+
+	void findSlip(double limit)
+	{
+		for (size_t i = 1; i < s_.frames.size(); ++i)
+		{
+			const Frame &a = s_.frames[i - 1], &b = s_.frames[i];
+			if (!b.wheel_factor) continue;
+			const double* x[] = {a.pose.data(),           b.pose.data(), s_.wheels.data(), s_.T_BO.data(), s_.camera_offset_s.data(),
+			                     s_.wheel_offset_s.data()};
+			Eigen::Matrix<double, 6, 1> r;
+			b.wheel_factor->evaluateLocal(x, r.data(), nullptr);
+			slipping_[i] = r.squaredNorm() > limit;
+		}
+	}
+
+	void setDeviations(const BatchInformation& information)
+	{
+		// From the blocks' tangents to the robot's axes.
+		const Eigen::Matrix3d R_OB = poseFromBlock(s_.T_BO.data()).R.conjugate().toRotationMatrix();
+		const Eigen::Matrix3d R_OC = R_OB * poseFromBlock(s_.T_BC.data()).R.toRotationMatrix();
+		Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(RigOrder::size, RigOrder::size);
+		turn.block<3, 3>(RigOrder::imu_lever, RigOrder::imu_lever) = R_OB;
+		turn.block<3, 3>(RigOrder::camera_lever, RigOrder::camera_lever) = R_OB;
+		turn.block<3, 3>(RigOrder::camera_rotation, RigOrder::camera_rotation) = R_OC;
+		const BatchInformation::Deviations found = information.deviations(
+		    factors_, trust_, {s_.wheels.data(), s_.T_BO.data(), s_.T_BC.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()}, turn,
+		    stretches());
+		result_.deviations = found.sigma;
+		track_factor_ = std::clamp(found.track_factor, 1.0, kLargestTrackFactor);
+	}
+
+	/** In which stretch of time each factor's second frame lies. */
+	std::vector<int> stretches() const
+	{
+		constexpr double kStretch_s = 2;
+		std::map<const double*, int> of_frame;
+		for (const Frame& f : s_.frames)
+			of_frame[f.pose.data()] = static_cast<int>(secondsBetween(s_.frames.front().t_ns, f.t_ns) / kStretch_s);
+		std::vector<int> result;
+		for (const BatchFactor& f : factors_) result.push_back(f.group == BatchGroup::image ? of_frame.at(f.factor.blocks[1]) : 0);
+		return result;
+	}
+
+	bool settled(const SensorRig& before) const
+	{
+		const RigVector moved = rigDifference(s_.rig(), before).cwiseQuotient(result_.deviations);
+		return moved.cwiseAbs().maxCoeff() < kSettled && noise_change_ < kSettledNoise;
+	}
+
+	void alignReference()
+	{
+		poseToBlock(Pose3(), s_.T_RW.data());
+		if (in_.reference.empty()) return;
+		size_t covered = 0;
+		for (const Frame& frame : s_.frames)
+		{
+			const auto T_RO = in_.reference.at(s_.imuTime_ns(frame), 0.5);
+			if (!T_RO) continue;
+			if (covered++ == 0) poseToBlock(*T_RO * (poseFromBlock(frame.pose.data()) * in_.start.T_BO).inverse(), s_.T_RW.data());
+		}
+		if (2 * covered < s_.frames.size())
+			result_.problem = "the reference trajectory covers " + std::to_string(100 * covered / s_.frames.size()) +
+			                  " % of the log; it must have stamps of the same clock, and poses over most of the drive";
+	}
+
+	void judge()
+	{
+		landmarks_.assess(poseFromBlock(s_.T_BC.data()));
+		result_.after = qualityOf(in_, s_, landmarks_);
+		result_.landmarks = static_cast<int>(landmarks_.all().size());
+		result_.pixel_sigma_px = trust_.pixel_sigma_px;
+		result_.wheel_noise_ratio = wheel_noise_ratio_;
+		for (size_t i = 1; i < s_.frames.size(); ++i)
+			if (slipping_[i]) result_.slip_s += secondsBetween(s_.frames[i - 1].t_ns, s_.frames[i].t_ns);
+		setPriorDeviations();
+		keepUnobserved();
+		const double duration_s = secondsBetween(s_.frames.front().t_ns, s_.frames.back().t_ns);
+		if (result_.slip_s <= options_.slip_share * duration_s) return;
+		const auto first = static_cast<size_t>(std::find(slipping_.begin(), slipping_.end(), true) - slipping_.begin());
+		char text[300];
+		std::snprintf(
+		    text, sizeof text,
+		    "the wheels contradict camera and IMU for %.1f of %.1f s, first %.1f s after the first image: they slip, or the start is "
+		    "too far off; drive more gently on firm ground, or measure the mountings",
+		    result_.slip_s, duration_s, secondsBetween(s_.frames.front().t_ns, s_.frames[first].t_ns));
+		result_.problem = text;
+	}
+
+	/** What was not observed stays what it was. */
+	void keepUnobserved()
+	{
+		RigVector moved = rigDifference(s_.rig(), in_.start);
+		for (int i = 0; i < RigOrder::size; ++i)
+		{
+			result_.observed[i] = result_.deviations[i] < kObservedShare * result_.prior_deviations[i];
+			if (!result_.observed[i]) moved[i] = 0;
+		}
+		result_.rig = rigPlus(in_.start, moved);
+	}
+
+	void setPriorDeviations()
+	{
+		const double turn = options_.rotation_deg * kDegree, lever = options_.lever_m, offset = options_.time_offset_s;
+		result_.prior_deviations << options_.wheel_scale, options_.wheel_scale, options_.track_relative * in_.start.wheels.track_m,
+		    Eigen::Matrix<double, 6, 1>(lever, lever, 0, turn, turn, turn), Eigen::Vector3d::Constant(lever),
+		    Eigen::Vector3d::Constant(turn), offset, offset;
+	}
+
+	static constexpr double kCoarseSigma_px = 3, kCoarseOutlier_px = 30, kLeastSigma_px = 0.05, kLargestTrackFactor = 25;
+
+	const BatchCalibrationInput& in_;
+	const BatchCalibrationOptions& options_;
+	const EstimatorOptions& estimator_;
+	const std::function<bool(double, const std::string&)>& progress_;
+	BatchSamples samples_;
+	BatchStates s_;
+	LandmarkMap landmarks_;
+	std::vector<BatchFactor> factors_;
+	std::vector<bool> slipping_;
+	BatchTrust trust_;
+	double wheel_noise_ratio_ = 1, noise_change_ = 1, track_factor_ = 1;
+	BatchCalibrationResult result_;
+};
+}  // namespace
+
+BatchCalibrationResult calibrateInBatch(const BatchCalibrationInput& input, const BatchCalibrationOptions& options,
+                                        const EstimatorOptions& estimator,
+                                        const std::function<bool(double fraction, const std::string& note)>& progress)
+{
+	return BatchRun(input, options, estimator, progress).go();
+}
+}  // namespace viwo
