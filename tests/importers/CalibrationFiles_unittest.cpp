@@ -195,6 +195,7 @@ TEST_F(CalibrationFilesTest, BadFilesAreToldInOneLine)
 		expectError([&] { importCalibration(files); }, parts);
 	};
 	expectBad("[461.629, 460.152, 362.680, 246.049]", "[461.629, 460.152, 362.680]", {"cam0: intrinsics", "3 numbers instead of 4"});
+	expectBad("cam0:", "cam8:", {"cam0", "it has cam1, cam2, cam8"});
 	expectBad("461.629", "-461.629", {"cam0: intrinsics", "focal length"});
 	expectBad("[0.0, -1.0, 0.0, 0.07]", "[0.0, -1.1, 0.0, 0.07]", {"cam0: T_cam_imu", "orthonormal"});
 	expectBad("radtan", "fov", {"cam0: distortion_model", "fov"});

@@ -6,6 +6,8 @@
 #include <viwo/importers/RecordingInfo.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
+#include <filesystem>
+
 using namespace viwo;
 using namespace viwo::testing;
 
@@ -49,6 +51,10 @@ TEST(RecordingInfo, EurocFolderAndItsRawlog)
 	EXPECT_EQ(stream(rawlog, "ODOMETRY", SensorRole::wheels).count, 41u);
 	EXPECT_EQ(stream(rawlog, "IMU", SensorRole::imu).first_t_ns, kStart_ns);
 	expectText(rawlog, {"--mode viwo       yes\n", "CObservationImage"});
+	std::filesystem::copy_file(folder.file("x.rawlog"), folder.file("x.dat"));
+	EXPECT_EQ(inspect(folder.file("x.dat")).kind, "rawlog") << "whatever its name";
+	std::filesystem::create_directory(folder.file("nothing"));
+	expectError([&] { inspect(folder.file("nothing")); }, {"nothing", "EuRoC", "KITTI"});
 }
 
 TEST(RecordingInfo, KittiFolder)

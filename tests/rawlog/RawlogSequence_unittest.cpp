@@ -104,6 +104,7 @@ TEST_F(RawlogSequenceTest, AMissingPartIsToldBeforeAnythingIsRead)
 	const std::string a = part("a.rawlog", 0, 100);
 	expectError([&] { RawlogReader reader(std::vector<std::string>{a, folder.file("none.rawlog")}); }, {"none.rawlog", "no such file"});
 	expectError([&] { RawlogReader reader(std::vector<std::string>{}); }, {"no rawlog"});
+	expectError([&] { RawlogReader reader(std::vector<std::string>{a, folder.path() + "/./a.rawlog"}); }, {"a.rawlog", "given twice"});
 }
 
 TEST_F(RawlogSequenceTest, TruncatedPartEndsTheReadingUnlessAllowed)

@@ -9,6 +9,7 @@
 #include <viwo/core/Error.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 namespace viwo
@@ -27,6 +28,9 @@ RosBagFile::RosBagFile(const std::vector<std::string>& paths) : impl_(std::make_
 	for (const std::string& path : paths)
 	{
 		requireReadableBag(path);
+		std::error_code ignored;
+		const auto same = [&](const std::string& other) { return std::filesystem::equivalent(path, other, ignored); };
+		if (std::count_if(paths.begin(), paths.end(), same) > 1) throw Error(path + ": given twice; name each bag of a recording once");
 		requireSoundRecords(path);
 		try
 		{

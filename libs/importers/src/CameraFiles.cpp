@@ -36,7 +36,8 @@ std::vector<double> dataOf(const YamlMap& yaml, const std::string& key, size_t m
 std::string camerasIn(const YamlMap& file)
 {
 	std::string names;
-	for (int i = 0; file.map("cam" + std::to_string(i)); ++i) names += (i ? ", cam" : "cam") + std::to_string(i);
+	for (int i = 0; i < 10; ++i)
+		if (const std::string name = "cam" + std::to_string(i); file.map(name)) names += (names.empty() ? "" : ", ") + name;
 	return names.empty() ? "it has none" : "it has " + names;
 }
 }  // namespace
@@ -78,7 +79,15 @@ CameraModel readRosCameraInfo(const std::string& path)
 CameraModel readMrptCamera(const std::string& path)
 {
 	if (!std::filesystem::is_regular_file(path)) throw Error(path + ": no such file; give the INI that MRPT's camera-calib saved");
-	mrpt::config::CConfigFile file(path);
+	mrpt::config::CConfigFile file;
+	try
+	{
+		file.setFileName(path);
+	}
+	catch (const std::exception&)
+	{
+		throw Error(path + ": not an INI file; give the one that MRPT's camera-calib saved");
+	}
 	if (!file.sectionExists("CAMERA_PARAMS"))
 		throw Error(path + ": no section [CAMERA_PARAMS]; give the INI that MRPT's camera-calib saved");
 	// Up to MRPT 2.1 there was one model, which had no name.

@@ -70,6 +70,22 @@ RecordingInfo inspectRawlog(const std::string& path, const std::function<bool(do
 	return info;
 }
 
+/** By its content, whatever its name. */
+bool isRawlog(const fs::path& path)
+{
+	std::error_code ignored;
+	if (!fs::is_regular_file(path, ignored)) return false;  // a pipe is read only once
+	try
+	{
+		const RawlogReader reader(path.string());
+		return true;
+	}
+	catch (const Error&)
+	{
+		return false;
+	}
+}
+
 RecordingInfo inspectCarmen(const std::string& path)
 {
 	const CarmenLog log = readCarmenLog(path);
@@ -124,8 +140,8 @@ RecordingInfo inspectFolder(const std::string& path)
 	for (const fs::path& folder : {root / "mav0", root})
 		if (fs::is_directory(folder / "cam0", ignored) || fs::is_directory(folder / "imu0", ignored)) return inspectEuroc(folder);
 	if (fs::is_directory(root / "image_00", ignored) && fs::is_directory(root / "oxts", ignored)) return inspectKitti(root);
-	requireReadableBag(path);
-	throw Error(path + ": a folder of no kind that is known");
+	if (fs::exists(root / "metadata.yaml", ignored)) requireReadableBag(path);  // a ROS 2 bag: refused with its remedy
+	throw Error(path + ": a folder of neither EuRoC's layout (cam0, imu0) nor KITTI's (image_00, oxts)");
 }
 }  // namespace
 
@@ -140,6 +156,6 @@ RecordingInfo inspectRecording(const std::string& path, const std::function<bool
 	std::ifstream(path, std::ios::binary).read(start.data(), 8);
 	const bool is_bag = start.compare(0, 4, "#ROS") == 0 || start.compare(0, 6, "SQLite") == 0 || start.compare(1, 4, "MCAP") == 0;
 	if (is_bag || name.extension() == ".bag") return inspectRosBag(path, proceed);
-	return inspectCarmen(path);
+	return isRawlog(name) ? inspectRawlog(path, proceed) : inspectCarmen(path);
 }
 }  // namespace viwo

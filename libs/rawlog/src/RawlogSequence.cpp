@@ -2,6 +2,7 @@
 
 #include <viwo/core/Error.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -26,6 +27,14 @@ double bytesOf(const std::string& path)
 	const auto bytes = fs::file_size(path, error);
 	return error ? 0 : static_cast<double>(bytes);
 }
+
+/** Every observation twice would pass for a sensor at twice the rate. */
+void requireOnce(const std::string& path, const std::vector<std::string>& paths)
+{
+	std::error_code ignored;
+	const auto same = [&](const std::string& other) { return fs::equivalent(path, other, ignored); };
+	if (std::count_if(paths.begin(), paths.end(), same) > 1) throw Error(path + ": given twice; name each rawlog of a run once");
+}
 }  // namespace
 
 RawlogSequence::RawlogSequence(std::vector<std::string> paths, const std::string& action_odometry_label, bool allow_truncated)
@@ -35,6 +44,7 @@ RawlogSequence::RawlogSequence(std::vector<std::string> paths, const std::string
 	for (const std::string& path : paths_)
 	{
 		requireReadableFile(path);
+		requireOnce(path, paths_);
 		bytes_ += bytesOf(path);
 	}
 	source_ = std::make_unique<ObservationSource>(path(), ActionOdometry(action_odometry_label));

@@ -222,4 +222,5 @@ TEST_F(RosBag, SeveralBagsAreOneRecording)
 	EXPECT_EQ(result.odometry_samples, 50u);
 	const RawlogContent content(path("x.rawlog"));
 	for (size_t i = 0; i < content.odometry.size(); ++i) EXPECT_EQ(content.odometry[i]->velocityLocal.vx, 0.01 * static_cast<double>(i));
+	expectError([&] { importRosBags({"", path("y.rawlog")}, {{path("a.bag"), path("./a.bag")}, {}, false}); }, {"a.bag", "given twice"});
 }
