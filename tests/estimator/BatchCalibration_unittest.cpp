@@ -161,6 +161,15 @@ TEST(BatchCalibration, SaysWhatIsMissing)
 	EXPECT_NE(problemOf(in).find("reference trajectory covers 0 %"), std::string::npos) << problemOf(in);
 }
 
+TEST(BatchCalibration, RefusesWheelsThatSlip)
+{
+	DriveSetup setup = briskDrive("stand 2 s, straight 2 m, rotate 120 deg, straight 2 m, rotate 120 deg, straight 2 m, stand 1 s");
+	setup.wheels.slips = {3, 3, 0.4, 0, 9, 3, 0.4, 1};
+	const Drive drive(setup);
+	const BatchCalibrationResult result = calibrateInBatch(inputOf(drive, truthOf(drive, setup)), {}, {});
+	EXPECT_NE(result.problem.find("contradict camera and IMU"), std::string::npos) << result.problem << " slip " << result.slip_s;
+}
+
 TEST(BatchCalibration, RigsAreAddedAndSubtracted)
 {
 	std::mt19937 generator(1);

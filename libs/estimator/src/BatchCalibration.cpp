@@ -25,8 +25,9 @@ namespace
 constexpr double kObservedShare = 0.5;
 /** Rounds end once nothing moves by more than this, in its own deviations, and the noise by no more than this share. */
 constexpr double kSettled = 0.2, kSettledNoise = 0.05;
-/** Of six rows in deviations: a wheel interval beyond this is not noise; the first while the noise is the configured one. */
-constexpr double kCoarseSlipSquare = 60, kSlipSquare = 36;
+/** Of six rows in deviations: a wheel interval beyond this is not noise. Looked at from the first round on, before slip passes for noise.
+ */
+constexpr double kSlipSquare = 36;
 
 class BatchRun
 {
@@ -134,11 +135,11 @@ class BatchRun
 		    std::clamp(trust_.pixel_sigma_px * std::sqrt(images * trust_.track_factor), kLeastSigma_px, kCoarseSigma_px);
 		wheel_noise_ratio_ *= std::clamp(std::sqrt(wheels), 0.5, 2.0);
 		trust_.track_factor = track_factor_;
-		findSlip(result_.rounds == 1 ? kCoarseSlipSquare : kSlipSquare);
+		findSlip();
 		return true;
 	}
 
-	void findSlip(double limit)
+	void findSlip()
 	{
 		for (size_t i = 1; i < s_.frames.size(); ++i)
 		{
@@ -148,7 +149,7 @@ class BatchRun
 			                     s_.wheel_offset_s.data()};
 			Eigen::Matrix<double, 6, 1> r;
 			b.wheel_factor->evaluateLocal(x, r.data(), nullptr);
-			slipping_[i] = r.squaredNorm() > limit;
+			slipping_[i] = r.squaredNorm() > kSlipSquare;
 		}
 	}
 
