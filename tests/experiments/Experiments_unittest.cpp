@@ -94,7 +94,8 @@ TEST_F(Experiments, AnInterruptionForgetsNothing)
 	hooks.interrupted = [] { return true; };
 	const ExperimentResult result = run(hooks);
 	EXPECT_NE(result.interruption.find("8 of 16 programs"), std::string::npos) << result.interruption;
-	for (const Json& row : loadJson(out_.file("table1.json")).at("results"))
+	const Json table = loadJson(out_.file("table1.json"));
+	for (const Json& row : table.at("results"))
 	{
 		EXPECT_EQ(row.at("seeds").at(0).at("problem"), "not measured yet");
 		EXPECT_EQ(row.at("seeds").at(1).at("problem"), "");
