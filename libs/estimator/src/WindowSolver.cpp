@@ -1,15 +1,12 @@
 #include "WindowSolver.h"
 
+#include "FactorSolver.h"
 #include "OnlineCalibration.h"
-#include "StateCopies.h"
 #include "StateOrder.h"
 #include "residuals/LinearPrior.h"
 #include "residuals/PartialPoseManifold.h"
 #include "residuals/PoseManifold.h"
 
-#include <viwo/sfm/ScopedQuietLog.h>
-
-#include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <Eigen/Cholesky>
@@ -63,41 +60,16 @@ class StateManifolds
 
 SolveReport solveWindow(Window& window, int max_iterations)
 {
-	const std::vector<Factor> factors = collectFactors(window);
-	ceres::Problem::Options problem_options;
-	problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.disable_all_safety_checks = true;
-	ceres::Problem problem(problem_options);
 	StateManifolds manifolds(window);
+	StateRoles roles;
+	roles.manifold = [&](const StateCopies::State& state) { return manifolds.of(state); };
+	roles.held = [&](const StateCopies::State& state) { return manifolds.held(state); };
+	roles.eliminated_first = [&](const StateCopies::State& state) { return isLandmark(window, state.original, state.shape); };
 	ceres::Solver::Options options;
-	auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-	options.linear_solver_ordering = ordering;
-
-	StateCopies copies(factors);
-	for (const StateCopies::State& state : copies.states())
-	{
-		double* const copy = copies.copyOf(state.original);
-		problem.AddParameterBlock(copy, state.shape.ambient, manifolds.of(state));
-		if (manifolds.held(state)) problem.SetParameterBlockConstant(copy);
-		ordering->AddElementToGroup(copy, isLandmark(window, state.original, state.shape) ? 0 : 1);
-	}
-	for (const Factor& factor : factors)
-	{
-		std::vector<double*> blocks;
-		for (const double* block : factor.blocks) blocks.push_back(copies.copyOf(block));
-		problem.AddResidualBlock(factor.cost.get(), factor.loss.get(), blocks);
-	}
 	options.linear_solver_type = ceres::DENSE_SCHUR;
-	options.num_threads = 1;
 	options.max_num_iterations = max_iterations;
 	options.function_tolerance = 1e-4;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	const ScopedQuietLog quiet;
-	ceres::Solve(options, &problem, &summary);
-	copies.writeBack();
+	const ceres::Solver::Summary summary = solveFactors(collectFactors(window), roles, options);
 	return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size())};
 }
 

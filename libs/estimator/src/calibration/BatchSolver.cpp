@@ -1,11 +1,8 @@
 #include "calibration/BatchSolver.h"
 
-#include "StateCopies.h"
+#include "FactorSolver.h"
 #include "residuals/PoseManifold.h"
 
-#include <viwo/sfm/ScopedQuietLog.h>
-
-#include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <algorithm>
@@ -21,39 +18,15 @@ bool solveBatch(const std::vector<BatchFactor>& batch, const LandmarkMap& landma
 	std::unordered_set<const double*> depths;  // looked up only, never walked through
 	for (const auto& [id, landmark] : landmarks.all()) depths.insert(&landmark.inverse_depth_1_m);
 
-	ceres::Problem::Options problem_options;
-	problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-	problem_options.disable_all_safety_checks = true;
 	PoseManifold pose_manifold;
-	ceres::Problem problem(problem_options);
+	StateRoles roles;
+	roles.manifold = [&](const StateCopies::State& state) { return state.shape.kind == BlockKind::pose ? &pose_manifold : nullptr; };
+	roles.held = [&](const StateCopies::State& state) { return std::find(fixed.begin(), fixed.end(), state.original) != fixed.end(); };
+	roles.eliminated_first = [&](const StateCopies::State& state) { return depths.count(state.original) > 0; };
 	ceres::Solver::Options options;
-	auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-	options.linear_solver_ordering = ordering;
-	StateCopies copies(factors);
-	for (const StateCopies::State& state : copies.states())
-	{
-		double* const copy = copies.copyOf(state.original);
-		problem.AddParameterBlock(copy, state.shape.ambient, state.shape.kind == BlockKind::pose ? &pose_manifold : nullptr);
-		ordering->AddElementToGroup(copy, depths.count(state.original) > 0 ? 0 : 1);
-		if (std::find(fixed.begin(), fixed.end(), state.original) != fixed.end()) problem.SetParameterBlockConstant(copy);
-	}
-	for (const Factor& factor : factors)
-	{
-		std::vector<double*> blocks;
-		for (const double* block : factor.blocks) blocks.push_back(copies.copyOf(block));
-		problem.AddResidualBlock(factor.cost.get(), factor.loss.get(), blocks);
-	}
 	options.linear_solver_type = ceres::SPARSE_SCHUR;
-	options.num_threads = 1;
 	options.max_num_iterations = max_iterations;
 	options.function_tolerance = 1e-6;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	const ScopedQuietLog quiet;
-	ceres::Solve(options, &problem, &summary);
-	copies.writeBack();
-	return summary.IsSolutionUsable();
+	return solveFactors(factors, roles, options).IsSolutionUsable();
 }
 }  // namespace viwo
