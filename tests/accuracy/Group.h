@@ -17,6 +17,7 @@ using namespace experiments;
 struct Settings
 {
 	int seeds = 5;
+	std::string folder;     //!< of the results: for files that the runs need
 	std::string test_data;  //!< folder of real recordings; empty: there are none
 };
 

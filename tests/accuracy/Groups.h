@@ -32,6 +32,12 @@ std::unique_ptr<Group> ablation(const Settings& settings);
 /** Robots with other rates, mountings, lenses, labels and sizes, with configuration alone; three seeds at most. */
 std::unique_ptr<Group> robots(const Settings& settings);
 
+/** viwo-calibrate estimate from a wrong start, on the drive that is made for it. */
+std::unique_ptr<Group> calibration(const Settings& settings);
+
+/** All calibration in the estimator against none, from a wrong start and from the right one, on the same drive. */
+std::unique_ptr<Group> onlineCalibration(const Settings& settings);
+
 /** Recordings of real cars and copters, where they are at hand. */
 std::unique_ptr<Group> real(const Settings& settings);
 

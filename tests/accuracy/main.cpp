@@ -75,8 +75,10 @@ std::vector<Row> rowsOf(const Group& group, const Runner& runner)
 	return rows;
 }
 
-int measure(const Arguments& a)
+int measure(Arguments& a)
 {
+	a.output = std::filesystem::absolute(a.output).string();
+	a.settings.folder = a.output;
 	std::vector<std::unique_ptr<Group>> groups = allGroups(a.settings);
 	groups.erase(std::remove_if(groups.begin(), groups.end(), [&](const auto& g) { return !anySelected(*g, a.only); }), groups.end());
 	if (groups.empty()) throw app::UsageError("--only " + a.only + ": there is no such bar; --list prints them");
@@ -88,7 +90,7 @@ int measure(const Arguments& a)
 		return 0;
 	}
 	std::filesystem::create_directories(a.output);
-	Runner runner(std::filesystem::absolute(a.output).string(), a.programs);
+	Runner runner(a.output, a.programs);
 	for (const auto& group : groups) group->plan(runner);
 	const auto tell = [](const JobReport& report) { std::fprintf(stderr, "%s\n", toLine(report).c_str()); };
 	if (!runner.execute(a.jobs, {app::interrupted, tell})) throw Error("interrupted; what is finished is kept for the next time");

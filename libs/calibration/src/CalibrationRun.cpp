@@ -32,9 +32,9 @@ constexpr RowText kRows[RigOrder::size] = {{"left wheel, true over nominal radiu
                                            {"camera from IMU, x (forward)", "mm", 1e3},
                                            {"camera from IMU, y (left)", "mm", 1e3},
                                            {"camera from IMU, z (up)", "mm", 1e3},
-                                           {"camera turned about x (roll), from the start", "deg", 1 / kDegree},
-                                           {"camera turned about y (pitch), from the start", "deg", 1 / kDegree},
-                                           {"camera turned about z (yaw), from the start", "deg", 1 / kDegree},
+                                           {"camera turned against the IMU about x (roll), from the start", "deg", 1 / kDegree},
+                                           {"camera turned against the IMU about y (pitch), from the start", "deg", 1 / kDegree},
+                                           {"camera turned against the IMU about z (yaw), from the start", "deg", 1 / kDegree},
                                            {"clock, t_IMU = t_CAM +", "ms", 1e3},
                                            {"clock, t_IMU = t_WHEEL +", "ms", 1e3}};
 
@@ -44,7 +44,7 @@ RigVector figuresOf(const SensorRig& rig, const SensorRig& origin)
 	const RigVector moved = rigDifference(rig, origin);
 	const Pose3 T_OB = rig.T_BO.inverse();
 	RigVector v;
-	// The IMU turns on the robot the other way round than the robot at the IMU; the camera with it, and against it.
+	// The IMU turns on the robot the other way round than the robot at the IMU.
 	v << rig.wheels.k_left, rig.wheels.k_right, rig.wheels.track_m, T_OB.p, -moved.segment<3>(RigOrder::imu_rotation), T_OB.R * rig.T_BC.p,
 	    moved.segment<3>(RigOrder::camera_rotation), rig.camera_offset_s, rig.wheel_offset_s;
 	return v;

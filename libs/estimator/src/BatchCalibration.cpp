@@ -155,16 +155,9 @@ class BatchRun
 
 	void setDeviations(const BatchInformation& information)
 	{
-		// From the blocks' tangents to the robot's axes.
-		const Eigen::Matrix3d R_OB = poseFromBlock(s_.T_BO.data()).R.conjugate().toRotationMatrix();
-		const Eigen::Matrix3d R_OC = R_OB * poseFromBlock(s_.T_BC.data()).R.toRotationMatrix();
-		Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(RigOrder::size, RigOrder::size);
-		turn.block<3, 3>(RigOrder::imu_lever, RigOrder::imu_lever) = R_OB;
-		turn.block<3, 3>(RigOrder::camera_lever, RigOrder::camera_lever) = R_OB;
-		turn.block<3, 3>(RigOrder::camera_rotation, RigOrder::camera_rotation) = R_OC;
 		const BatchInformation::Deviations found = information.deviations(
-		    factors_, trust_, {s_.wheels.data(), s_.T_BO.data(), s_.T_BC.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()}, turn,
-		    stretches());
+		    factors_, trust_, {s_.wheels.data(), s_.T_BO.data(), s_.T_BC.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()},
+		    rigJacobian(s_.rig()), stretches());
 		result_.deviations = found.sigma;
 		track_factor_ = std::clamp(found.track_factor, 1.0, kLargestTrackFactor);
 	}

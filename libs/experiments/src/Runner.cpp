@@ -130,6 +130,7 @@ std::string Runner::contentOf(const RunRecipe& recipe) const
 	                   std::to_string(recipe.to_s) + "\nconfiguration " + recipe.config + "\n";
 	if (!recipe.config.empty()) text += readFile(findShare(kConfigFolder + recipe.config));
 	for (const std::string& word : recipe.overrides) text += word + "\n";
+	if (!recipe.rig.empty()) text += "---- rig\n" + readFile(recipe.rig);
 	return text + experiments::contentOf(recipe.log);
 }
 
@@ -146,6 +147,7 @@ Job Runner::runJob(const RunRecipe& recipe, size_t log_job) const
 	job.after = {log_job};
 	job.command = {programs_ + "/viwo-odometry", "-i", cache_.rawlog(recipe.log), "-o", folder, "--mode", recipe.mode};
 	if (needs_config) job.command.insert(job.command.end(), {"-c", config});
+	if (!recipe.rig.empty()) job.command.insert(job.command.end(), {"--rig", recipe.rig});
 	if (recipe.from_s > 0) job.command.insert(job.command.end(), {"--from", std::to_string(recipe.from_s)});
 	if (recipe.to_s > 0) job.command.insert(job.command.end(), {"--to", std::to_string(recipe.to_s)});
 	job.tolerated = [=] { return !statusWithoutPose(folder).empty(); };
@@ -171,6 +173,24 @@ void Runner::wantTruth(const LogRecipe& log)
 Outcome Runner::truthOutcome(const LogRecipe& log) const
 {
 	return outcomeOf(truths_.at(log.name), truthFolderOf(log), log);
+}
+
+void Runner::wantCalibration(const CalibrationRecipe& recipe)
+{
+	if (calibrations_.count(recipe.log.name) != 0) return;
+	const std::string folder = calibrationFolderOf(recipe.log);
+	Job job = folderJob(folder, "");
+	job.label = "calibration from " + recipe.log.name;
+	job.after = {logJob(recipe.log)};
+	job.command = {programs_ + "/viwo-calibrate", "estimate", "-i", cache_.rawlog(recipe.log), "--rig", recipe.start};
+	job.command.insert(job.command.end(), {"-o", folder + "/rig.ini", "--html", folder + "/report.html", "--json"});
+	job.cost_s = recipe.cost_s;
+	calibrations_[recipe.log.name] = pool_.add(std::move(job));
+}
+
+Outcome Runner::calibrationOutcome(const LogRecipe& log) const
+{
+	return outcomeOf(calibrations_.at(log.name), calibrationFolderOf(log), log);
 }
 
 bool Runner::execute(size_t parallel, const JobHooks& hooks)

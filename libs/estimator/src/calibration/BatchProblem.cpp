@@ -24,7 +24,7 @@ namespace
 // Where the losses turn linear, in deviations of the measurement: beyond what noise alone does.
 constexpr double kImageHuber = 3, kWheelHuber = 4.5, kFloorGate = 3, kReferenceHuber = 4.5;
 constexpr double kGaugePosition_m = 1e-4, kGaugeYaw_rad = 1e-5;
-/** The height of the robot's frame moves no sensor on a plane: it is what the start says. */
+/** The height of the IMU over the floor moves no sensor on a plane: it is what the start says. */
 constexpr double kGivenHeight_m = 1e-5;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -172,12 +172,13 @@ class Collector
 		std::array<double, 7> T_BO{}, T_BC{};
 		poseToBlock(start.T_BO, T_BO.data());
 		poseToBlock(start.T_BC, T_BC.data());
-		const Eigen::Matrix3d R_BO = start.T_BO.R.toRotationMatrix();
-		Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-		covariance.diagonal().tail<3>().setConstant(turn);
-		covariance.topLeftCorner<3, 3>() = R_BO * Eigen::Vector3d(lever, lever, square(kGivenHeight_m)).asDiagonal() * R_BO.transpose();
+		Vector6d variances;
+		variances << lever, lever, square(kGivenHeight_m), Eigen::Vector3d::Constant(turn);
+		const Eigen::Matrix<double, 6, 6> toBlock = imuMountingJacobian(start.T_BO).inverse();
+		Eigen::Matrix<double, 6, 6> covariance = toBlock * variances.asDiagonal() * toBlock.transpose();
 		add(BatchGroup::prior, StatePrior::fromCovariance(BlockShape::pose(), T_BO.data(), covariance), {s_.T_BO.data()});
-		covariance.topLeftCorner<3, 3>() = lever * Eigen::Matrix3d::Identity();
+		variances[2] = lever;
+		covariance = variances.asDiagonal();
 		add(BatchGroup::prior, StatePrior::fromCovariance(BlockShape::pose(), T_BC.data(), covariance), {s_.T_BC.data()});
 		const std::array<double, 3> wheels{start.wheels.k_left, start.wheels.k_right, start.wheels.track_m};
 		addPrior(BlockShape::euclidean(3), wheels.data(),

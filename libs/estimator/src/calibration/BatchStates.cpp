@@ -15,31 +15,59 @@ const std::vector<std::string>& RigOrder::names()
 	return names;
 }
 
+namespace
+{
+/** Of the camera against the IMU, along the robot's axes. */
+Eigen::Vector3d cameraLever(const SensorRig& rig)
+{
+	return rig.T_BO.R.conjugate() * rig.T_BC.p;
+}
+}  // namespace
+
 RigVector rigDifference(const SensorRig& a, const SensorRig& b)
 {
-	const Eigen::Matrix3d R_OB = b.T_BO.R.conjugate().toRotationMatrix();
+	const Eigen::Quaterniond R_OC = b.T_BO.R.conjugate() * b.T_BC.R;
 	RigVector d;
 	d << a.wheels.k_left - b.wheels.k_left, a.wheels.k_right - b.wheels.k_right, a.wheels.track_m - b.wheels.track_m,
-	    R_OB * (a.T_BO.p - b.T_BO.p), so3::log(Eigen::Quaterniond(b.T_BO.R.conjugate() * a.T_BO.R)), R_OB * (a.T_BC.p - b.T_BC.p),
-	    R_OB * (b.T_BC.R * so3::log(Eigen::Quaterniond(b.T_BC.R.conjugate() * a.T_BC.R))), a.camera_offset_s - b.camera_offset_s,
-	    a.wheel_offset_s - b.wheel_offset_s;
+	    a.T_BO.inverse().p - b.T_BO.inverse().p, so3::log(Eigen::Quaterniond(b.T_BO.R.conjugate() * a.T_BO.R)),
+	    cameraLever(a) - cameraLever(b), R_OC * so3::log(Eigen::Quaterniond(b.T_BC.R.conjugate() * a.T_BC.R)),
+	    a.camera_offset_s - b.camera_offset_s, a.wheel_offset_s - b.wheel_offset_s;
 	return d;
 }
 
 SensorRig rigPlus(const SensorRig& b, const RigVector& d)
 {
-	const Eigen::Quaterniond R_OB = b.T_BO.R.conjugate();
+	const Eigen::Quaterniond R_OC = b.T_BO.R.conjugate() * b.T_BC.R;
 	SensorRig a;
 	a.wheels = {b.wheels.k_left + d[RigOrder::left_scale], b.wheels.k_right + d[RigOrder::right_scale],
 	            b.wheels.track_m + d[RigOrder::track]};
-	a.T_BO.p = b.T_BO.p + b.T_BO.R * d.segment<3>(RigOrder::imu_lever);
 	a.T_BO.R = (b.T_BO.R * so3::expQuaternion(d.segment<3>(RigOrder::imu_rotation))).normalized();
-	a.T_BC.p = b.T_BC.p + b.T_BO.R * d.segment<3>(RigOrder::camera_lever);
-	const Eigen::Vector3d turn_C = (R_OB * b.T_BC.R).conjugate() * d.segment<3>(RigOrder::camera_rotation);
-	a.T_BC.R = (b.T_BC.R * so3::expQuaternion(turn_C)).normalized();
+	a.T_BO.p = -(a.T_BO.R * (b.T_BO.inverse().p + d.segment<3>(RigOrder::imu_lever)));
+	a.T_BC.R = (b.T_BC.R * so3::expQuaternion(R_OC.conjugate() * d.segment<3>(RigOrder::camera_rotation))).normalized();
+	a.T_BC.p = a.T_BO.R * (cameraLever(b) + d.segment<3>(RigOrder::camera_lever));
 	a.camera_offset_s = b.camera_offset_s + d[RigOrder::camera_offset];
 	a.wheel_offset_s = b.wheel_offset_s + d[RigOrder::wheel_offset];
 	return a;
+}
+
+Eigen::Matrix<double, 6, 6> imuMountingJacobian(const Pose3& T_BO)
+{
+	const Pose3 T_OB = T_BO.inverse();
+	Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
+	J.topLeftCorner<3, 3>() = -T_OB.R.toRotationMatrix();
+	J.topRightCorner<3, 3>() = so3::skew(T_OB.p);
+	return J;
+}
+
+RigJacobian rigJacobian(const SensorRig& rig)
+{
+	const Eigen::Matrix3d R_OB = rig.T_BO.R.conjugate().toRotationMatrix();
+	RigJacobian J = RigJacobian::Identity();
+	J.block<6, 6>(RigOrder::imu_lever, RigOrder::imu_lever) = imuMountingJacobian(rig.T_BO);
+	J.block<3, 3>(RigOrder::camera_lever, RigOrder::imu_rotation) = so3::skew(cameraLever(rig));
+	J.block<3, 3>(RigOrder::camera_lever, RigOrder::camera_lever) = R_OB;
+	J.block<3, 3>(RigOrder::camera_rotation, RigOrder::camera_rotation) = R_OB * rig.T_BC.R.toRotationMatrix();
+	return J;
 }
 
 ImuSample ImuSensitivity::corrected(const ImuSample& measured) const

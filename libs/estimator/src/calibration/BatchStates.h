@@ -20,6 +20,14 @@ struct ImuSensitivity
 	ImuSample corrected(const ImuSample& measured) const;
 };
 
+using RigJacobian = Eigen::Matrix<double, RigOrder::size, RigOrder::size>;
+
+/** d(T_OB.p, turn) / d(tangent of T_BO): how the IMU's place on the robot follows from the solver's block. */
+Eigen::Matrix<double, 6, 6> imuMountingJacobian(const Pose3& T_BO);
+
+/** d rigDifference(., rig) / d(tangents of wheels, T_BO, T_BC and both offsets, one after the other), at the rig. */
+RigJacobian rigJacobian(const SensorRig& rig);
+
 /** All that a batch calibration estimates, as blocks of the solver. */
 struct BatchStates
 {

@@ -72,8 +72,9 @@ struct SensorRig
 	double wheel_offset_s = 0;   //!< t_w: t_IMU = t_WHEEL + t_w
 };
 
-/** The order of everything that is estimated of a rig. Lever arms (m) and rotations (rad, right perturbations) are along and about the
- * robot's axes: of the IMU in the robot, and of the camera against the IMU. */
+/** The order of everything that is estimated of a rig. Lever arms (m): T_OB.p, and R_OB T_BC.p, which is from the IMU to the camera along
+ * the robot's axes: on a plane the vertical parts of both, and nothing else of them, are hidden. Rotations (rad): right perturbations of
+ * T_BO, and of T_BC turned into the robot's axes. */
 struct RigOrder
 {
 	enum : int

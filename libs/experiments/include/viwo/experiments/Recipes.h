@@ -54,6 +54,7 @@ struct RunRecipe
 	std::string variant;                 //!< told apart from other runs of that mode on that log
 	std::vector<std::string> overrides;  //!< section.key=value of the configuration
 	std::string config;                  //!< a file of share/viwo/config_files/viwo-odometry; empty: the default
+	std::string rig;                     //!< path of a rig.ini to go by; empty: what the log says
 	double from_s = 0;                   //!< of the log, from its first stamp
 	double to_s = 0;                     //!< 0: to its end
 	double cost_s = 1;                   //!< about how long it takes
@@ -61,5 +62,13 @@ struct RunRecipe
 	bool loaded = false;                 //!< all other cores are busy meanwhile
 
 	std::string name() const { return log.name + "-" + mode + (variant.empty() ? "" : "-" + variant); }
+};
+
+/** A run of viwo-calibrate estimate on a log. */
+struct CalibrationRecipe
+{
+	LogRecipe log;
+	std::string start;  //!< path of the rig.ini to start from
+	double cost_s = 1;  //!< about how long it takes
 };
 }  // namespace viwo::experiments

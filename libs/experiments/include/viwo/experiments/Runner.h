@@ -57,6 +57,9 @@ class Runner
 	/** Asks for the trajectory and the map that viwo-groundtruth makes of a log's scans. */
 	void wantTruth(const LogRecipe& log);
 
+	/** Asks for the rig (`rig.ini`) and the figures (`program.out`, JSON) that viwo-calibrate makes of a log; once for each log. */
+	void wantCalibration(const CalibrationRecipe& recipe);
+
 	/** @return false when interrupted: outcomes of what has not been done are open. */
 	[[nodiscard]] bool execute(size_t parallel, const JobHooks& hooks);
 
@@ -68,6 +71,8 @@ class Runner
 	Outcome outcome(const RunRecipe& recipe) const;
 	/** Of wantTruth(); `ground_truth` is the simulator's. */
 	Outcome truthOutcome(const LogRecipe& log) const;
+	/** Of wantCalibration(); `ground_truth` is the simulator's. */
+	Outcome calibrationOutcome(const LogRecipe& log) const;
 
    private:
 	/** Index of the job that makes the log; added on the first call. */
@@ -77,13 +82,14 @@ class Runner
 	Outcome outcomeOf(size_t job, const std::string& folder, const LogRecipe& log) const;
 	std::string folderOf(const RunRecipe& recipe) const { return folder_ + "/runs/" + recipe.name(); }
 	std::string truthFolderOf(const LogRecipe& log) const { return folder_ + "/truth/" + log.name; }
+	std::string calibrationFolderOf(const LogRecipe& log) const { return folder_ + "/calibration/" + log.name; }
 
 	std::string folder_, programs_;
 	std::string program_, truth_program_;  //!< empty: every run is done
 	SimulationCache cache_;
 	JobPool pool_;
-	std::map<std::string, size_t> logs_;    //!< jobs by the path of the log
-	std::map<std::string, size_t> runs_;    //!< jobs by the name of the run
-	std::map<std::string, size_t> truths_;  //!< jobs by the name of the log
+	std::map<std::string, size_t> logs_;                   //!< jobs by the path of the log
+	std::map<std::string, size_t> runs_;                   //!< jobs by the name of the run
+	std::map<std::string, size_t> truths_, calibrations_;  //!< jobs by the name of the log
 };
 }  // namespace viwo::experiments
