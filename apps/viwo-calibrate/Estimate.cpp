@@ -59,6 +59,11 @@ Command addEstimate(CLI::App& cli)
 	const auto arguments = std::make_shared<Arguments>();
 	CLI::App* const command = cli.add_subcommand("estimate", "Mountings, wheels and clocks of a robot from a rawlog of a drive");
 	declare(*command, *arguments);
+	command->footer(
+	    "Examples:\n"
+	    "  viwo-calibrate estimate -i calibration.rawlog -o rig.ini --html report.html\n"
+	    "  viwo-calibrate estimate -i calibration.rawlog -t lidar.tum --rig measured.ini -o rig.ini\n"
+	    "How to drive, and what a drive cannot tell: doc/apps/viwo-calibrate.md.");
 	return {command, [arguments] { return estimate(*arguments); }};
 }
 }  // namespace viwo::calibrate

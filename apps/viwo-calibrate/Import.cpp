@@ -74,6 +74,10 @@ Command addImport(CLI::App& cli)
 	const auto arguments = std::make_shared<Arguments>();
 	CLI::App* const command = cli.add_subcommand("import", "Calibration files of Kalibr, ROS or MRPT as a rig.ini");
 	declare(*command, *arguments);
+	command->footer(
+	    "Examples:\n"
+	    "  viwo-calibrate import --kalibr camchain-imucam.yaml --imu imu.yaml --odom 0 0.3 -0.1 90 0 90 -o rig.ini\n"
+	    "  viwo-calibrate import --ros left.yaml -o camera.ini");
 	return {command, [arguments] { return importFiles(*arguments); }};
 }
 }  // namespace viwo::calibrate

@@ -1,5 +1,7 @@
+#include <viwo/rawlog/ObservationAdapter.h>
 #include <viwo/rawlog/RigFile.h>
 
+#include "EditedLog.h"
 #include "OdometryProgram.h"
 
 namespace viwo::testing
@@ -46,6 +48,39 @@ TEST_F(CalibrateProgram, WritesARigWithDeviationsAndAReport)
 	for (const char* part : {"<!DOCTYPE html>", "not observed (input kept)", "Residuals before and after", "<svg"})
 		EXPECT_NE(html.find(part), std::string::npos) << part;
 	EXPECT_EQ(html.find("http://www.w3.org/1999/xhtml"), std::string::npos);
+}
+
+TEST_F(CalibrateProgram, SameBytesAgainAndARigThatRawlogEditTakes)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	ASSERT_EQ(estimate({"-i", log.rawlog, "--quiet"}).status, 0);
+	const std::string first = readFile(folder_.file("rig.ini"));
+	ASSERT_EQ(estimate({"-i", log.rawlog, "--quiet"}).status, 0);
+	EXPECT_EQ(readFile(folder_.file("rig.ini")), first);
+
+	if (runProgram("sh", {"-c", "command -v rawlog-edit"}).status != 0) GTEST_SKIP() << "no rawlog-edit here (Debian package mrpt-apps)";
+	const std::string copy =
+	    editedLog(log.rawlog, folder_, 1, [](auto& observation, double, RawlogWriter& writer) { writer.write(observation); });
+	const std::string options = " && rawlog-edit --sensors-pose rig.ini -i " + copy +
+	                            " -o posed.rawlog && rawlog-edit --camera-params CAM,rig.ini "
+	                            "-i posed.rawlog -o ready.rawlog";
+	const ProgramResult edited = runProgram("sh", {"-c", "cd " + folder_.path() + options});
+	ASSERT_EQ(edited.status, 0) << edited.err;
+	const RigFile rig = RigFile::load(folder_.file("rig.ini"));
+	const Calibration found = readCalibration({folder_.file("ready.rawlog")}, AdapterOptions(), true, true, false, nullptr);
+	EXPECT_LT((found.T_OC.p - rig.camera->mounting.pose().p).norm(), 1e-6);
+	EXPECT_LT(found.T_OC.R.angularDistance(rig.camera->mounting.pose().R), 1e-6);
+	EXPECT_LT((found.T_OB.p - rig.imu->mounting.pose().p).norm(), 1e-6);
+	EXPECT_NEAR(found.camera.fx_px(), rig.camera->fx_px, 1e-6);
+}
+
+TEST_F(CalibrateProgram, ARigThatDoesNotFitIsNamed)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	const std::string label = write(folder_, "label.ini", "[IMU]\nsensorLabel = XSENS\n");
+	expectError({"-i", log.rawlog, "--rig", label}, "label.ini: the rig is that of label XSENS");
+	const std::string pose = write(folder_, "pose.ini", "[CAMERA_PARAMS]\nsensorLabel = CAM\nresolution = 640 480\nfx = 300\nfy = 300\n");
+	expectError({"-i", log.rawlog, "--rig", pose}, "pose.ini: camera CAM has no pose");
 }
 
 TEST_F(CalibrateProgram, BadInputIsOneLine)

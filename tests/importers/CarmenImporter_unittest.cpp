@@ -194,6 +194,7 @@ TEST(CarmenImporter, SaysWhatIsWrongInOneLine)
 	expectFailure("FLASER 2 1 nan 0 0 0 0 0 0 1 host 1\n", {"x.clf:1", "'nan'"});
 	expectFailure("FLASER 2 1 1 0 0 0 0 0 0 soon host 1\n", {"x.clf:1", "'soon'"});
 	expectFailure("FLASER 0 0 0 0 0 0 0 1 host 1\n", {"x.clf", "without readings"});
+	expectFailure(std::string("FLASER 1\0 1", 11), {"x.clf", "not text"});
 	expectFailure("BZh9 is no archive", {"x.clf", "bzip2"});
 	expectError([&] { importCarmen({folder.file("absent"), folder.file("x.rawlog")}); }, {"absent", "no such file"});
 	expectError([&] { importCarmen({folder.path(), folder.file("x.rawlog")}); }, {"is a folder"});

@@ -98,7 +98,7 @@ TEST(RecordingInfo, Program)
 	EXPECT_EQ(result.err, "");
 	EXPECT_NE(runProgram(program, {"--help"}).out.find("Examples:"), std::string::npos);
 	EXPECT_EQ(runProgram(program, {}).status, 2);
-	for (const std::string& path : {folder.file("absent.rawlog"), write(folder, "empty/x", "") + "/..",
+	for (const std::string& path : {std::string("/dev/zero"), folder.file("absent.rawlog"), write(folder, "empty/x", "") + "/..",
 	                                write(folder, "x.log", "FLASE 1 2\n"), write(folder, "x.mcap", "\x89MCAP0\r\n")})
 	{
 		const ProgramResult bad = runProgram(program, {path});

@@ -15,7 +15,9 @@ namespace
 std::string number(double value, int decimals)
 {
 	char text[64];
-	std::snprintf(text, sizeof text, "%.*f", decimals, value);
+	const double unit = std::pow(10.0, -decimals);
+	const bool is_zero = std::abs(value) < 0.5 * unit;  // not "-0.00"
+	std::snprintf(text, sizeof text, "%.*f", decimals, is_zero ? 0.0 : value);
 	return text;
 }
 

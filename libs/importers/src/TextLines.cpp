@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -16,6 +17,14 @@ namespace
 {
 constexpr size_t kBlock = 1 << 16;
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/** Ends the reading of what is no text before it fills the memory: /dev/zero has no end. */
+void appendText(const std::string& path, const char* begin, int bytes, std::string& text)
+{
+	const auto size = static_cast<size_t>(bytes);
+	if (std::memchr(begin, 0, size) != nullptr) throw Error(path + ": is not text; give a log, or one packed by gzip or bzip2");
+	text.append(begin, size);
+}
 
 bool isBzip2(const std::string& path)
 {
@@ -33,8 +42,7 @@ std::string readGzipOrPlain(const std::string& path)
 	std::string text;
 	std::array<char, kBlock> block;
 	int bytes = 0;
-	while ((bytes = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0)
-		text.append(block.data(), static_cast<size_t>(bytes));
+	while ((bytes = gzread(file.get(), block.data(), static_cast<unsigned>(block.size()))) > 0) appendText(path, block.data(), bytes, text);
 	int status = Z_OK;
 	gzerror(file.get(), &status);
 	if (bytes < 0 || status != Z_OK) throw Error(path + ": damaged or cut short: gzip cannot unpack it; copy it again");
@@ -48,8 +56,7 @@ std::string readBzip2(const std::string& path)
 	std::string text;
 	std::array<char, kBlock> block;
 	int bytes = 0;
-	while ((bytes = BZ2_bzread(file.get(), block.data(), static_cast<int>(block.size()))) > 0)
-		text.append(block.data(), static_cast<size_t>(bytes));
+	while ((bytes = BZ2_bzread(file.get(), block.data(), static_cast<int>(block.size()))) > 0) appendText(path, block.data(), bytes, text);
 	int status = BZ_OK;
 	BZ2_bzerror(file.get(), &status);
 	if (bytes < 0 || status < 0) throw Error(path + ": damaged or cut short: bzip2 cannot unpack it; copy it again");

@@ -16,7 +16,7 @@ constexpr double kOffGravity = 0.3;
 /** Beyond any slope and any acceleration of a robot on wheels. */
 constexpr double kOffVertical_deg = 30;
 constexpr size_t kFewestSamples = 10;
-const char* const kRemedy = "rawlog-edit --sensors-pose";
+const char* const kRemedy = "rawlog-edit --sensors-pose, or in a rig.ini (--rig)";
 }  // namespace
 
 void MountingCheck::add(const mrpt::obs::CObservationImage& image) const

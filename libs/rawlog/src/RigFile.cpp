@@ -87,7 +87,7 @@ void RigCamera::setModel(const CameraModel& model)
 
 RigFile RigFile::load(const std::string& path)
 {
-	RigFile rig{RigCamera(), RigImu(), RigWheels()};
+	RigFile rig{RigCamera(), RigImu(), RigWheels(), path};
 	loadOptions(path, sectionsOf(rig));
 	const std::set<std::string> there = sectionNames(path);
 	if (there.count(kCamera) == 0) rig.camera.reset();

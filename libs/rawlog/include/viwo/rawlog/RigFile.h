@@ -111,6 +111,7 @@ struct RigFile
 	std::optional<RigCamera> camera;
 	std::optional<RigImu> imu;
 	std::optional<RigWheels> wheels;
+	std::string path{};  //!< of the file that it was loaded from, for messages
 
 	/** @throws Error: unreadable, a section or key that is not known, no section at all, a camera without focal length. */
 	static RigFile load(const std::string& path);
