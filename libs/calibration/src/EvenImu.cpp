@@ -1,5 +1,6 @@
 #include <viwo/calibration/EvenImu.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
@@ -103,9 +104,7 @@ double jitterOf(const std::vector<double>& t_s, const std::vector<int64_t>& cell
 	for (size_t i = 1; i < t_s.size(); ++i)
 		if (cells[i] == cells[i - 1] + 1) offsets.push_back(std::abs(t_s[i] - t_s[i - 1] - interval_s));
 	if (offsets.empty()) return 0;
-	const auto most = offsets.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(offsets.size() - 1));
-	std::nth_element(offsets.begin(), most, offsets.end());
-	return *most;
+	return valueAtRank(offsets, static_cast<size_t>(0.9 * static_cast<double>(offsets.size() - 1)));
 }
 
 struct Run

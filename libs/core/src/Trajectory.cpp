@@ -1,6 +1,7 @@
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/PoseRows.h>
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
 #include <viwo/core/Trajectory.h>
@@ -16,8 +17,7 @@ double coveredDuration_s(const std::vector<int64_t>& stamps_ns, double max_gap_s
 	for (size_t i = 1; i < stamps_ns.size(); ++i) intervals_s.push_back(secondsBetween(stamps_ns[i - 1], stamps_ns[i]));
 	if (intervals_s.empty()) return 0;
 	std::vector<double> sorted = intervals_s;
-	std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-	const double limit_s = std::max(max_gap_s, 3 * sorted[sorted.size() / 2]);
+	const double limit_s = std::max(max_gap_s, 3 * upperMedian(sorted));
 	double sum_s = 0;
 	for (const double interval_s : intervals_s)
 		if (interval_s <= limit_s) sum_s += interval_s;

@@ -4,6 +4,7 @@
 #include "WheelPreintegration.h"
 #include "Window.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
@@ -47,8 +48,7 @@ std::optional<double> medianMovement(const FeatureFrame& before, const FeatureFr
 		if (p->id == f.id) moved.push_back((f.bearing_C - p->bearing_C).norm());
 	}
 	if (moved.size() < kEnoughTracks) return std::nullopt;
-	std::nth_element(moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(moved.size() / 2), moved.end());
-	return moved[moved.size() / 2];
+	return upperMedian(moved);
 }
 }  // namespace
 

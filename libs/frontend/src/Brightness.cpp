@@ -1,5 +1,7 @@
 #include "Brightness.h"
 
+#include <viwo/core/Ranking.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -48,9 +50,7 @@ double brightnessRatio(const cv::Mat& previous, const cv::Mat& current)
 		}
 	}
 	if (ratios.size() < kMinRatios) return 1;
-	const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-	std::nth_element(ratios.begin(), middle, ratios.end());
-	return *middle;
+	return upperMedian(ratios);
 }
 
 cv::Mat withGain(const cv::Mat& grey, double gain)

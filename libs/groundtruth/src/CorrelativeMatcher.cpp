@@ -1,5 +1,7 @@
 #include "CorrelativeMatcher.h"
 
+#include <viwo/core/Ranking.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -132,9 +134,8 @@ std::optional<CorrelativeMatcher::Match> CorrelativeMatcher::search(const Cloud&
 	if (cloud.empty() || levels_.front().cells.empty()) return std::nullopt;
 	std::vector<double> ranges_m;
 	for (const OrientedPoint& point : cloud) ranges_m.push_back(point.p.norm());
-	const auto far = ranges_m.begin() + static_cast<std::ptrdiff_t>(ranges_m.size() * 9 / 10);
-	std::nth_element(ranges_m.begin(), far, ranges_m.end());
-	const double angle_step = resolution_m_ / std::max(*far, resolution_m_);
+	const double far_m = valueAtRank(ranges_m, ranges_m.size() * 9 / 10);
+	const double angle_step = resolution_m_ / std::max(far_m, resolution_m_);
 
 	Search search{*this, {}, {}, static_cast<int>(std::ceil(half_width_m / resolution_m_)), {}};
 	const int half_steps = static_cast<int>(std::ceil(half_angle_rad / angle_step));

@@ -3,6 +3,7 @@
 #include "Session.h"
 
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/MrptTime.h>
 
@@ -62,9 +63,7 @@ bool InertialYaw::integrate(std::vector<Scan>& scans, double& bias_rad_s) const
 		for (Scan& scan : scans) scan.gyro_yaw.reset();
 		return false;
 	}
-	const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-	std::nth_element(differences.begin(), middle, differences.end());
-	bias_rad_s = *middle;
+	bias_rad_s = upperMedian(differences);
 	for (Scan& scan : scans)
 		if (scan.gyro_yaw) *scan.gyro_yaw -= bias_rad_s * secondsBetween(scans.front().t_ns, scan.t_ns);
 	return true;

@@ -1,5 +1,6 @@
 #include "OdometryCalibration.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
@@ -46,9 +47,7 @@ std::vector<Step> stepsOf(const Session& session, const std::vector<FinalPose>& 
 std::optional<double> median(std::vector<double> values, size_t fewest = kFewest)
 {
 	if (values.size() < fewest) return std::nullopt;
-	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-	std::nth_element(values.begin(), middle, values.end());
-	return *middle;
+	return upperMedian(values);
 }
 
 /** How far ways by scans and by odometry differ, and how long the ways are. */

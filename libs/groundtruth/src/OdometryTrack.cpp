@@ -1,5 +1,6 @@
 #include "OdometryTrack.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
@@ -21,9 +22,7 @@ constexpr double kSameOrigin_m = 1;
 
 double quantile(std::vector<double> values, double fraction)
 {
-	const auto at = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-	std::nth_element(values.begin(), at, values.end());
-	return *at;
+	return valueAtRank(values, static_cast<size_t>(fraction * static_cast<double>(values.size() - 1)));
 }
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "RangeNoise.h"
 
+#include <viwo/core/Ranking.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,10 +47,8 @@ double rangeNoise_m(const std::vector<Scan>& scans)
 	for (size_t s = 0; s < scans.size(); s += stride)
 		forEachTriple(scans[s], [&](float, float distance_m) { differences.push_back(distance_m); });
 	if (differences.empty()) return kLeast_m;
-	const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-	std::nth_element(differences.begin(), middle, differences.end());
 	// Median of |x| of a normal variable is 0.6745 sigma; the difference has sqrt(1 + 2/4) the deviation of a range.
-	return std::max(kLeast_m, static_cast<double>(*middle) / (0.6745 * std::sqrt(1.5)));
+	return std::max(kLeast_m, static_cast<double>(upperMedian(differences)) / (0.6745 * std::sqrt(1.5)));
 }
 
 size_t blankNoise(std::vector<Scan>& scans, double noise_m)

@@ -1,5 +1,6 @@
 #include "StreamStatistics.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
@@ -11,9 +12,7 @@ namespace
 {
 double quantile(std::vector<double> values, double share)
 {
-	const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-	std::nth_element(values.begin(), at, values.end());
-	return *at;
+	return valueAtRank(values, static_cast<size_t>(share * static_cast<double>(values.size())));
 }
 
 void summarise(StreamInfo& info, std::vector<int64_t> stamps_ns)

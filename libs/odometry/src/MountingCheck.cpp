@@ -2,6 +2,7 @@
 
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/Ranking.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +38,7 @@ void MountingCheck::judge() const
 	if (forces_O_m_s2_.size() < kFewestSamples) return;
 	std::vector<double> norms;
 	for (const auto& f : forces_O_m_s2_) norms.push_back(f.norm());
-	std::nth_element(norms.begin(), norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2), norms.end());
-	const double median_m_s2 = norms[norms.size() / 2];
+	const double median_m_s2 = upperMedian(norms);
 	judgeSize(median_m_s2);
 	if (options_.estimator.useWheels()) judgeDirection(median_m_s2);
 }

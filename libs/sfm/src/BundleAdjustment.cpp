@@ -4,6 +4,7 @@
 
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
+#include <viwo/core/Ranking.h>
 #include <viwo/core/So3.h>
 
 #include <algorithm>
@@ -187,10 +188,9 @@ void removeVaguePoints(Scene& scene, double sigma_rad)
 	for (const ScenePoint& point : scene.points)
 		if (point.X) inverse_distances.push_back(std::max(0.0, point.X->w()) / point.X->head<3>().norm());
 	if (inverse_distances.empty()) return;
-	const auto middle = inverse_distances.begin() + static_cast<std::ptrdiff_t>(inverse_distances.size() / 2);
-	std::nth_element(inverse_distances.begin(), middle, inverse_distances.end());
+	const double middle = upperMedian(inverse_distances);
 	for (ScenePoint& point : scene.points)
-		if (point.X && inverseDistanceSigma(point, scene.T_r_ck, sigma_rad) > kMaxInverseDistanceSigma * *middle) point.X.reset();
+		if (point.X && inverseDistanceSigma(point, scene.T_r_ck, sigma_rad) > kMaxInverseDistanceSigma * middle) point.X.reset();
 }
 
 int removeOutliers(Scene& scene, double limit_rad)

@@ -1,5 +1,7 @@
 #include "Tracks.h"
 
+#include <viwo/core/Ranking.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 #include <map>
@@ -22,9 +24,7 @@ double angleQuantile(const std::vector<Correspondence>& pairs, const Eigen::Quat
 	std::vector<double> angles;
 	angles.reserve(pairs.size());
 	for (const Correspondence& c : pairs) angles.push_back(angleBetween(c.a, R_ab * c.b));
-	const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(angles.size() - 1));
-	std::nth_element(angles.begin(), middle, angles.end());
-	return *middle;
+	return valueAtRank(angles, static_cast<size_t>(share * static_cast<double>(angles.size() - 1)));
 }
 
 Eigen::Quaterniond wahba(const Eigen::Matrix3d& sum_a_bT)

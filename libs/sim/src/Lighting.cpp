@@ -1,5 +1,7 @@
 #include "Lighting.h"
 
+#include <viwo/core/Ranking.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -89,9 +91,7 @@ float medianOfPositive(std::vector<float> values)
 {
 	values.erase(std::remove_if(values.begin(), values.end(), [](float e) { return !(e > 0); }), values.end());
 	if (values.empty()) return 1;
-	const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-	std::nth_element(values.begin(), middle, values.end());
-	return *middle;
+	return upperMedian(values);
 }
 
 int nodesAlong(double length_m)

@@ -1,5 +1,6 @@
 #include "viwo/sim/Renderer.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/So3.h>
 
 #include <algorithm>
@@ -68,9 +69,7 @@ class Renderer::Impl
 				const auto hit = world_.castRay(T_WC.p, (T_WC.R * camera_.unproject(pixel)).normalized(), kFar_m);
 				inverse_depths.push_back(hit ? 1 / hit->distance_m : 0);
 			}
-		const auto ninth = inverse_depths.begin() + static_cast<std::ptrdiff_t>(inverse_depths.size() * 9 / 10);
-		std::nth_element(inverse_depths.begin(), ninth, inverse_depths.end());
-		return *ninth;
+		return valueAtRank(inverse_depths, inverse_depths.size() * 9 / 10);
 	}
 
 	RendererOptions options_;

@@ -1,5 +1,6 @@
 #include "calibration/BatchInformation.h"
 
+#include <viwo/core/Ranking.h>
 #include <viwo/core/Scalars.h>
 
 #include <algorithm>
@@ -71,9 +72,7 @@ BatchInformation::Deviations BatchInformation::deviations(const std::vector<Batc
 		if (v.single > 0) track_factors.push_back(v.by_tracks / v.single);
 	}
 	if (track_factors.empty()) return result;
-	const auto middle = track_factors.begin() + static_cast<std::ptrdiff_t>(track_factors.size() / 2);
-	std::nth_element(track_factors.begin(), middle, track_factors.end());
-	result.track_factor = *middle;
+	result.track_factor = upperMedian(track_factors);
 	return result;
 }
 
@@ -136,8 +135,6 @@ double BatchInformation::varianceFactor(BatchGroup group, const std::function<bo
 	const auto number = static_cast<double>(rows.size());
 	if (number - trace < 1) return 1;
 	if (!by_median) return std::accumulate(squares.begin(), squares.end(), 0.0) / (number - trace);
-	const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-	std::nth_element(squares.begin(), middle, squares.end());
-	return *middle / kMedianOfSquare * number / (number - trace);
+	return upperMedian(squares) / kMedianOfSquare * number / (number - trace);
 }
 }  // namespace viwo
