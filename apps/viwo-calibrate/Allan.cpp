@@ -17,15 +17,19 @@ struct AllanArguments
 	std::string rig, output, svg, html, json, csv;
 };
 
-void writeRig(const AllanArguments& a, const ImuNoiseResult& result)
+RigFile loadRig(const AllanArguments& a)
 {
-	RigFile rig;
-	if (!a.rig.empty()) rig = RigFile::load(a.rig);
-	if (!rig.imu)
-		rig.imu = result.rig();
-	else if (rig.imu->mounting.label != result.imu_label)
-		throw Error(a.rig + ": [IMU] sensorLabel: is " + rig.imu->mounting.label + ", but the noise is that of " + result.imu_label +
+	if (a.rig.empty()) return {};
+	RigFile rig = RigFile::load(a.rig);
+	if (rig.imu && rig.imu->mounting.label != a.noise.imu_label)
+		throw Error(a.rig + ": [IMU] sensorLabel: is " + rig.imu->mounting.label + ", but the noise is that of " + a.noise.imu_label +
 		            "; give the rig of the same IMU, or --imu-label");
+	return rig;
+}
+
+void writeRig(const AllanArguments& a, RigFile rig, const ImuNoiseResult& result)
+{
+	if (!rig.imu) rig.imu = result.rig();
 	result.put(*rig.imu);
 	rig.save(a.output, imuNoiseOrigin(result, "viwo-calibrate " + app::version()));
 }
@@ -34,7 +38,7 @@ int allan(AllanArguments& a)
 {
 	if (a.noise.to_s <= a.noise.from_s) throw app::UsageError("--to must be later than --from");
 	std::replace(a.noise.rawlogs.begin(), a.noise.rawlogs.end(), std::string("-"), std::string("/dev/stdin"));
-	if (!a.rig.empty()) RigFile::load(a.rig);  // its errors before the long part
+	const RigFile rig = loadRig(a);  // its errors before the long part
 	app::ProgressBar bar;
 	ImuNoiseHooks hooks;
 	hooks.progress = [&bar](double fraction, const std::string& note) { bar.update(fraction, note); };
@@ -44,12 +48,13 @@ int allan(AllanArguments& a)
 	std::cout << describeImuNoise(result) << std::flush;
 	if (!app::quiet())
 		for (const std::string& warning : result.warnings) std::cerr << "viwo-calibrate: note: " << warning << std::endl;
-	writeRig(a, result);
+	writeRig(a, rig, result);
 	if (!a.svg.empty()) saveImuNoiseSvg(a.svg, result);
 	if (!a.html.empty()) saveImuNoiseHtml(a.html, result);
 	if (!a.json.empty()) saveImuNoiseJson(a.json, result);
 	if (!a.csv.empty()) saveImuNoiseCsv(a.csv, result);
-	std::cout << a.output << std::endl;
+	for (const std::string& path : {a.output, a.svg, a.html, a.json, a.csv})
+		if (!path.empty()) std::cout << path << std::endl;
 	return 0;
 }
 }  // namespace

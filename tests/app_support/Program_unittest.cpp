@@ -142,6 +142,36 @@ TEST(Program, AnInputIsNeverOverwritten)
 	}
 }
 
+/** Before the long part of a run. */
+TEST(Program, OutputsAreTriedFirst)
+{
+	const TempFolder folder;
+	const std::string fine = folder.file("rig.ini"), absent = folder.file("none/x.html");
+	const std::string same = std::filesystem::relative(fine).string();
+	struct
+	{
+		std::string html, error;
+		int status;
+	} const cases[] = {{absent, "create it first", 1}, {folder.path(), "is a folder", 1}, {same, "written twice", 2}, {"/dev/null", "", 0}};
+	for (const auto& c : cases)
+	{
+		CLI::App cli("", "viwo-test");
+		std::string output, html;
+		cli.add_option("-o,--output", output)->type_name("FILE.ini");
+		cli.add_option("--html", html)->type_name("FILE.html");
+		std::vector<std::string> arguments{"viwo-test", "-o", fine, "--html", c.html};
+		std::vector<char*> argv;
+		for (auto& argument : arguments) argv.push_back(argument.data());
+		bool entered = false;
+		::testing::internal::CaptureStderr();
+		EXPECT_EQ(app::run(cli, static_cast<int>(argv.size()), argv.data(), [&] { return entered = true, 0; }), c.status) << c.html;
+		const std::string error = ::testing::internal::GetCapturedStderr();
+		EXPECT_NE(error.find(c.error), std::string::npos) << error;
+		EXPECT_EQ(entered, c.status == 0) << c.html;
+		EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << c.html;
+	}
+}
+
 TEST(Program, NamesMadeOfArgumentsAreCheckedToo)
 {
 	const TempFolder folder;

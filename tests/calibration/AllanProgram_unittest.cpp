@@ -38,6 +38,8 @@ TEST(AllanProgram, FromALogAtRestToARigAndPictures)
 	EXPECT_EQ(rig.imu->gyro_walk_rad_s2_sqrtHz, 0);
 	EXPECT_EQ(rig.imu->mounting.y_m, -0.2);
 	for (const char* name : {"a.svg", "a.html"}) EXPECT_NE(readFile(folder.file(name)).find("</svg>"), std::string::npos) << name;
+	for (const char* name : {"imu.ini", "a.svg", "a.html", "a.json", "a.csv"})
+		EXPECT_NE(result.out.find(folder.file(name) + "\n"), std::string::npos) << name;
 	EXPECT_NE(readFile(folder.file("a.csv")).find("gyro z,0.01,"), std::string::npos);
 	EXPECT_NE(readFile(folder.file("a.json")).find("\"acc_walk_m_s3_sqrtHz\""), std::string::npos);
 }

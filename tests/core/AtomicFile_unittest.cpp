@@ -57,6 +57,19 @@ TEST(AtomicFile, TwoWritersDoNotMix)
 	EXPECT_EQ(countFiles(folder), 1u);
 }
 
+TEST(AtomicFile, ATrialLeavesNothingAndKeepsWhatIsThere)
+{
+	const TempFolder folder;
+	requireWritable(folder.file("a.txt"));
+	EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+	writeAtomically(folder.file("a.txt"), "old");
+	requireWritable(folder.file("a.txt"));
+	EXPECT_EQ(readFile(folder.file("a.txt")), "old");
+	requireWritable("/dev/full");
+	expectError([&] { requireWritable(folder.file("none/a.txt")); }, {"none/a.txt", "there is no folder"});
+	expectError([&] { requireWritable(folder.path()); }, {"is a folder"});
+}
+
 TEST(AtomicFile, MissingFolderOrFolderAsName)
 {
 	TempFolder folder;

@@ -1,5 +1,10 @@
+#include <viwo/calibration/CalibrationRun.h>
+#include <viwo/core/Error.h>
+#include <viwo/core/Time.h>
 #include <viwo/rawlog/ObservationAdapter.h>
 #include <viwo/rawlog/RigFile.h>
+
+#include <regex>
 
 #include "EditedLog.h"
 #include "OdometryProgram.h"
@@ -50,6 +55,83 @@ TEST_F(CalibrateProgram, WritesARigWithDeviationsAndAReport)
 	EXPECT_EQ(html.find("http://www.w3.org/1999/xhtml"), std::string::npos);
 }
 
+TEST_F(CalibrateProgram, PrintsAWholeTableAndTheFilesWritten)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	const std::string link = folder_.file(std::string(200, 'x')), html = folder_.file("report.html");
+	std::filesystem::create_directory_symlink(std::filesystem::absolute(log.rawlog).parent_path(), link);
+	const std::string rawlog = link + "/" + std::filesystem::path(log.rawlog).filename().string();
+	const ProgramResult result = estimate({"-i", rawlog, "--html", html});
+	ASSERT_EQ(result.status, 0) << result.err;
+	const std::string first = result.out.substr(0, result.out.find('\n'));
+	EXPECT_NE(first.find(" of " + rawlog + ": "), std::string::npos) << first;
+	EXPECT_NE(first.find(" times the configured, slip "), std::string::npos) << first;
+	const std::string files = "\n" + folder_.file("rig.ini") + "\n" + html + "\n";
+	ASSERT_GT(result.out.size(), files.size());
+	EXPECT_EQ(result.out.substr(result.out.size() - files.size()), files);
+	std::smatch height;
+	ASSERT_TRUE(std::regex_search(result.out, height, std::regex("camera from IMU, z \\(up\\) +mm +(-?[0-9.]+) +(-?[0-9.]+) +- ")));
+	EXPECT_NE(height[1].str().find('.'), std::string::npos) << "a millimetre is too coarse to measure by";
+	EXPECT_EQ(height[1], height[2]);
+}
+
+TEST_F(CalibrateProgram, AResultThatCannotBeWrittenIsPrintedAllTheSame)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	const ProgramResult result = runProgram(program("viwo-calibrate"), {"estimate", "-i", log.rawlog, "-o", "/dev/full"});
+	EXPECT_EQ(result.status, 1);
+	EXPECT_EQ(result.errorLines(), 1u) << result.err;
+	EXPECT_NE(result.err.find("/dev/full"), std::string::npos) << result.err;
+	EXPECT_NE(result.out.find("left wheel, true over nominal radius"), std::string::npos) << result.out;
+}
+
+TEST_F(CalibrateProgram, APartOfALogAndOtherLabels)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	const Trajectory truth = Trajectory::loadTum(log.ground_truth);
+	const double length_s = secondsBetween(truth.poses().front().t_ns, truth.poses().back().t_ns);
+	const ProgramResult part = estimate({"-i", log.rawlog, "--json", "--from", "0.8", "--to", std::to_string(length_s - 0.2)});
+	ASSERT_EQ(part.status, 0) << part.err;
+	const double duration_s = Json::parse(part.out)["duration_s"].get<double>();
+	std::cout << "[measured] " << duration_s << " s of " << length_s << "\n";
+	EXPECT_NEAR(duration_s, length_s - 1, 0.15);
+	std::filesystem::remove(folder_.file("rig.ini"));
+	expectError({"-i", log.rawlog, "--from", "1000"}, "not all there between --from and --to");
+	expectError({"-i", log.rawlog, "--imu-label", "XSENS"}, "under label XSENS");
+	expectError({"-i", log.rawlog, "--odometry-label", "BASE"}, "under label BASE");
+	EXPECT_EQ(estimate({"-i", log.rawlog, "--from", "3", "--to", "2"}).status, 2);
+}
+
+TEST_F(CalibrateProgram, APipeCannotBeReadTwice)
+{
+	const ProgramResult result = estimate({"-i", "-"});
+	EXPECT_EQ(result.status, 2);
+	EXPECT_NE(result.err.find("more than once"), std::string::npos) << result.err;
+}
+
+TEST_F(CalibrateProgram, InterruptedAnywhereNothingWasWritten)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	for (const double at : {0.2, 0.6})
+	{
+		double done = 0;
+		CalibrationRunHooks hooks;
+		hooks.progress = [&](double fraction, const std::string&) { done = fraction; };
+		hooks.interrupted = [&] { return done >= at; };
+		CalibrationRunOptions options;
+		options.rawlogs = {log.rawlog};
+		try
+		{
+			runCalibration(options, hooks);
+			FAIL() << "went on";
+		}
+		catch (const Error& e)
+		{
+			EXPECT_NE(std::string(e.what()).find(": interrupted, nothing was written"), std::string::npos) << e.what();
+		}
+	}
+}
+
 TEST_F(CalibrateProgram, SameBytesAgainAndARigThatRawlogEditTakes)
 {
 	const TestLog log = testLog(corridorTestDrive());
@@ -81,6 +163,24 @@ TEST_F(CalibrateProgram, ARigThatDoesNotFitIsNamed)
 	expectError({"-i", log.rawlog, "--rig", label}, "label.ini: the rig is that of label XSENS");
 	const std::string pose = write(folder_, "pose.ini", "[CAMERA_PARAMS]\nsensorLabel = CAM\nresolution = 640 480\nfx = 300\nfy = 300\n");
 	expectError({"-i", log.rawlog, "--rig", pose}, "pose.ini: camera CAM has no pose");
+}
+
+TEST_F(CalibrateProgram, WhatIsWrongWithAReferenceIsTold)
+{
+	const TestLog log = testLog(corridorTestDrive());
+	const Trajectory truth = Trajectory::loadTum(log.ground_truth);
+	const auto saved = [&](const std::string& name, int64_t period_ns, int64_t shift_ns)
+	{
+		Trajectory thinned;
+		for (const StampedPose& pose : truth.poses())
+			if (thinned.empty() || pose.t_ns + shift_ns - thinned.poses().back().t_ns >= period_ns)
+				thinned.push_back({pose.t_ns + shift_ns, pose.T});
+		thinned.saveTum(folder_.file(name));
+		return folder_.file(name);
+	};
+	expectError({"-i", log.rawlog, "-t", saved("slow.tum", nanoseconds(1), 0)}, "poses are more than 0.5 s apart; give two a second");
+	expectError({"-i", log.rawlog, "-t", saved("late.tum", 0, nanoseconds(1000))},
+	            "covers 0 % of the log; it must have stamps of the same");
 }
 
 TEST_F(CalibrateProgram, BadInputIsOneLine)

@@ -66,6 +66,11 @@ TEST_F(Completion, FilesByTheirNames)
 	EXPECT_EQ(offered({"viwo-odometry", "-o", ""}), Words{"runs"});
 	EXPECT_EQ(offered({"viwo-plot", "--octomap", "run."}), (Words{"run.bt", "run.ot"}));
 	EXPECT_EQ(offered({"viwo-info", "b"}), (Words{"b.bag", "b.rawlog"}));
+	for (const char* command : {"estimate", "allan"})
+	{
+		EXPECT_EQ(offered({"viwo-calibrate", command, "-i", ""}), (Words{"a.rawlog", "b.rawlog", "runs"})) << command;
+		EXPECT_EQ(offered({"viwo-calibrate", command, "--rig", ""}), (Words{"my robot.ini", "runs"})) << command;
+	}
 	EXPECT_EQ(offered({"/usr/bin/viwo-info", "n"}), Words{"notes.txt"});
 }
 

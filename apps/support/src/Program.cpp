@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <viwo/app/Documents.h>
 #include <viwo/app/Program.h>
+#include <viwo/core/AtomicFile.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,17 +133,19 @@ void collectFiles(const CLI::App& cli, std::vector<std::string>& inputs, std::ve
 		for (const std::string& value : option->results())
 		{
 			std::error_code ignored;
-			if (std::filesystem::is_regular_file(value, ignored)) (isOutput(*option) ? outputs : inputs).push_back(value);
+			const bool exists = std::filesystem::is_regular_file(value, ignored), output = isOutput(*option);
+			if (exists || (output && OptionSummary(*option).is_file)) (output ? outputs : inputs).push_back(value);
 		}
 	for (const CLI::App* command : cli.get_subcommands()) collectFiles(*command, inputs, outputs);
 }
 
-/** A recording that is overwritten by a typing error cannot be made again. */
-void requireInputsAreKept(const CLI::App& cli)
+/** A recording that is overwritten by a typing error cannot be made again, and a long run is not to end in one. */
+void checkOutputs(const CLI::App& cli)
 {
 	std::vector<std::string> inputs, outputs;
 	collectFiles(cli, inputs, outputs);
-	app::requireInputsAreKept(inputs, outputs);
+	requireInputsAreKept(inputs, outputs);
+	for (const std::string& path : outputs) requireWritable(path);
 }
 
 /** The shortest text of the number. */
@@ -231,7 +234,7 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 	return guarded(program,
 	               [&]
 	               {
-		               requireInputsAreKept(cli);
+		               checkOutputs(cli);
 		               return body();
 	               });
 }
@@ -240,6 +243,8 @@ void requireInputsAreKept(const std::vector<std::string>& inputs, const std::vec
 {
 	namespace fs = std::filesystem;
 	std::error_code ignored;
+	// Of a name that is not there yet, "x" and "./x" are the same only from the root on.
+	const auto place = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
 	for (size_t i = 0; i < outputs.size(); ++i)
 	{
 		if (fs::exists(outputs[i], ignored) && !fs::is_regular_file(outputs[i], ignored)) continue;  // /dev/null, a pipe
@@ -247,7 +252,7 @@ void requireInputsAreKept(const std::vector<std::string>& inputs, const std::vec
 			if (fs::equivalent(outputs[i], input, ignored))
 				throw UsageError(outputs[i] + " would be overwritten, but is an input; give the output another name");
 		for (size_t j = 0; j < i; ++j)
-			if (fs::weakly_canonical(outputs[i], ignored) == fs::weakly_canonical(outputs[j], ignored))
+			if (place(outputs[i]) == place(outputs[j]))
 				throw UsageError(outputs[i] + " would be written twice; give each output a name of its own");
 	}
 }

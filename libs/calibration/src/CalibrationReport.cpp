@@ -24,7 +24,7 @@ std::string number(double value, int decimals)
 /** As many decimals as the deviation fills with two digits. */
 int decimalsOf(const CalibrationRow& row)
 {
-	if (!(row.deviation > 0)) return row.unit.empty() ? 5 : 2;
+	if (!row.observed || !(row.deviation > 0)) return row.unit.empty() ? 5 : row.unit == "deg" ? 3 : 2;
 	return std::clamp(1 - static_cast<int>(std::floor(std::log10(row.deviation))), 0, 6);
 }
 
@@ -70,13 +70,10 @@ Table qualityTable(const CalibrationRunResult& result)
 std::string summaryLine(const CalibrationRunResult& r)
 {
 	const BatchCalibrationResult& b = r.batch;
-	char text[300];
-	std::snprintf(
-	    text, sizeof text,
-	    "%.1f s of %s: %d key frames, %d landmarks, %d rounds; noise of a corner %.2f px, of the wheels %.2f times the configured, "
-	    "slip %.1f s",
-	    r.duration_s, r.rawlogs.c_str(), b.keyframes, b.landmarks, b.rounds, b.pixel_sigma_px, b.wheel_noise_ratio, b.slip_s);
-	return text;
+	return number(r.duration_s, 1) + " s of " + r.rawlogs + ": " + std::to_string(b.keyframes) + " key frames, " +
+	       std::to_string(b.landmarks) + " landmarks, " + std::to_string(b.rounds) + " rounds; noise of a corner " +
+	       number(b.pixel_sigma_px, 2) + " px, of the wheels " + number(b.wheel_noise_ratio, 2) + " times the configured, slip " +
+	       number(b.slip_s, 1) + " s";
 }
 
 LineChart misfitChart(const CalibrationRunResult& result, const std::string& title, const std::string& label,

@@ -112,7 +112,9 @@ CalibrationRunResult runCalibration(const CalibrationRunOptions& options, const 
 		return !(hooks.interrupted && hooks.interrupted());
 	};
 	result.batch = calibrateInBatch(input, options.calibration, options.odometry.estimator, progress);
-	if (!result.batch.problem.empty()) throw Error(result.rawlogs + ": " + result.batch.problem);
+	const bool interrupted = hooks.interrupted && hooks.interrupted();
+	if (!result.batch.problem.empty())
+		throw Error(result.rawlogs + ": " + result.batch.problem + (interrupted ? ", nothing was written" : ""));
 	result.rows = rowsOf(result.batch, result.start);
 	result.rig = rigOf(options, result.batch.rig, input.camera);
 	result.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

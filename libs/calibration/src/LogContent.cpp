@@ -5,9 +5,11 @@
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 #include <viwo/frontend/FeatureTracker.h>
+#include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 namespace viwo
@@ -33,6 +35,7 @@ class LogReader
 		const Calibration calibration = readCalibration(options_.rawlogs, labels_, true, true, false, options_.start.get());
 		in_.camera = calibration.camera;
 		in_.start = {calibration.T_BO(), calibration.T_BC(), calibration.wheels, labels_.camera_time_offset_s, labels_.wheel_time_offset_s};
+		findBegin();
 		readSamples();
 		followImages();
 		return std::move(in_);
@@ -48,6 +51,15 @@ class LogReader
 		return RawlogReader(options_.rawlogs, options);
 	}
 
+	bool isPart() const { return options_.from_s > 0 || std::isfinite(options_.to_s); }
+
+	void findBegin()
+	{
+		if (!isPart()) return;
+		RawlogReader reader = open({labels_.cam_label, labels_.imu_label, labels_.odometry_label});
+		if (const auto first = reader.next()) first_ns_ = nanosecondsOf(first->timestamp);
+	}
+
 	void readSamples()
 	{
 		RawlogReader reader = open({labels_.imu_label, labels_.odometry_label});
@@ -58,6 +70,7 @@ class LogReader
 			if (const auto* imu = std::get_if<ImuSample>(&adapted.sample)) in_.imu.push_back(*imu);
 			if (const auto* wheels = std::get_if<WheelSample>(&adapted.sample)) in_.wheels.push_back(*wheels);
 		}
+		if (isPart() && (in_.imu.empty() || in_.wheels.empty())) throw nothingInPart();
 		if (in_.wheels.empty()) throw missingSensorError(rawlogNames(options_.rawlogs), SensorKind::odometry, labels_, reader.counts());
 	}
 
@@ -77,12 +90,27 @@ class LogReader
 			in_.frames.push_back(tracker.track(image->t_ns, grey.asCvMatRef(), R_Cprev_Ccur));
 			if (hooks_.progress) hooks_.progress(kTrackingShare * reader.progress(), "following corners");
 		}
+		if (in_.frames.empty() && isPart()) throw nothingInPart();
 	}
 
+	Error nothingInPart() const
+	{
+		return Error(rawlogNames(options_.rawlogs) + ": camera, IMU and wheels are not all there between --from and --to");
+	}
+
+	/** Of the part in use. */
 	mrpt::obs::CObservation::Ptr next(RawlogReader& reader) const
 	{
-		if (hooks_.interrupted && hooks_.interrupted()) throw Error(rawlogNames(options_.rawlogs) + ": interrupted, nothing was written");
-		return reader.next();
+		while (true)
+		{
+			if (hooks_.interrupted && hooks_.interrupted())
+				throw Error(rawlogNames(options_.rawlogs) + ": interrupted, nothing was written");
+			auto observation = reader.next();
+			if (!observation || !isPart()) return observation;
+			const double t_s = secondsBetween(first_ns_, nanosecondsOf(observation->timestamp));
+			if (t_s > options_.to_s) return nullptr;
+			if (t_s >= options_.from_s) return observation;
+		}
 	}
 
 	AdaptedObservation convert(ObservationAdapter& adapter, const mrpt::obs::CObservation::Ptr& observation) const
@@ -120,6 +148,7 @@ class LogReader
 	const AdapterOptions& labels_;
 	AdapterOptions raw_;
 	BatchCalibrationInput in_;
+	int64_t first_ns_ = 0;  //!< where only a part is wanted
 };
 }  // namespace
 

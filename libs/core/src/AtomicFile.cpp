@@ -14,6 +14,16 @@ namespace fs = std::filesystem;
 
 namespace viwo
 {
+namespace
+{
+/** A device or pipe (/dev/stdout) is written as it is: renaming would replace it. */
+bool isSpecial(const std::string& path)
+{
+	std::error_code ignored;
+	return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
+}
+}  // namespace
+
 AtomicFile::AtomicFile(const std::string& path) : path_(path)
 {
 	std::error_code ignored;
@@ -23,8 +33,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path)
 	if (!folder.empty() && !fs::is_directory(folder, ignored))
 		throw Error(path + ": cannot write: there is no folder " + folder.string() + "; create it first");
 
-	// A device or pipe (/dev/stdout) is written as it is: renaming would replace it.
-	const bool special = fs::exists(path_, ignored) && !fs::is_regular_file(path_, ignored);
+	const bool special = isSpecial(path_);
 	temporary_path_ = special ? path_ : path_ + ".part";
 	if (!special) lock();
 	errno = 0;
@@ -76,5 +85,11 @@ void writeAtomically(const std::string& path, const std::string& content)
 	AtomicFile file(path);
 	file.stream() << content;
 	file.commit();
+}
+
+void requireWritable(const std::string& path)
+{
+	// A pipe that is opened and closed again has ended for its reader.
+	if (!isSpecial(path)) AtomicFile probe(path);
 }
 }  // namespace viwo

@@ -184,16 +184,20 @@ class BatchRun
 	{
 		poseToBlock(Pose3(), s_.T_RW.data());
 		if (in_.reference.empty()) return;
-		size_t covered = 0;
+		const int64_t begin_ns = in_.reference.poses().front().t_ns, end_ns = in_.reference.poses().back().t_ns;
+		size_t covered = 0, within = 0;
 		for (const Frame& frame : s_.frames)
 		{
-			const auto T_RO = in_.reference.at(s_.imuTime_ns(frame), 0.5);
+			const int64_t t_ns = s_.imuTime_ns(frame);
+			if (t_ns >= begin_ns && t_ns <= end_ns) ++within;
+			const auto T_RO = in_.reference.at(t_ns, 0.5);
 			if (!T_RO) continue;
 			if (covered++ == 0) poseToBlock(*T_RO * (poseFromBlock(frame.pose.data()) * in_.start.T_BO).inverse(), s_.T_RW.data());
 		}
-		if (2 * covered < s_.frames.size())
-			result_.problem = "the reference trajectory covers " + std::to_string(100 * covered / s_.frames.size()) +
-			                  " % of the log; it must have stamps of the same clock, and poses over most of the drive";
+		if (2 * covered >= s_.frames.size()) return;
+		result_.problem = "the reference trajectory covers " + std::to_string(100 * covered / s_.frames.size()) + " % of the log";
+		result_.problem += 2 * within < s_.frames.size() ? "; it must have stamps of the same clock, and poses over most of the drive"
+		                                                 : ": its poses are more than 0.5 s apart; give two a second or more";
 	}
 
 	void judge()

@@ -21,8 +21,9 @@ class UsageError : public Error
 };
 
 /** Runs `body` after parsing; --help, --version and --quiet are added. Any exception becomes one line "<program>: error: ..." and status 1,
- *  a usage error one line and status 2; that an output (--output, --json and the like) is one of the inputs is such an error. The program's
- * name is the one given to CLI::App, or that of the executable.
+ *  a usage error one line and status 2; that an output (--output, --json and the like) is one of the inputs, or named twice, is such an
+ * error. Outputs that are files (by the option's type name) are tried before `body` is entered. The program's name is the one given to
+ * CLI::App, or that of the executable.
  */
 int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body);
 

@@ -5,6 +5,7 @@
 #include <viwo/rawlog/RigFile.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +15,9 @@ namespace viwo
 /** What viwo-calibrate estimate can be told. */
 struct CalibrationRunOptions
 {
-	std::vector<std::string> rawlogs;      //!< of one drive, in the order of their time
+	std::vector<std::string> rawlogs;  //!< of one drive, in the order of their time
+	double from_s = 0;                 //!< from the first stamp of the labels in use
+	double to_s = std::numeric_limits<double>::infinity();
 	std::string reference;                 //!< TUM, poses of O; empty: none
 	std::shared_ptr<const RigFile> start;  //!< counts instead of the rawlog's sensors; null: those
 	OdometryOptions odometry;

@@ -34,4 +34,7 @@ class AtomicFile
 
 /** A whole AtomicFile at once. @throws Error when it cannot be written. */
 void writeAtomically(const std::string& path, const std::string& content);
+
+/** Throws what AtomicFile would, before the work whose result is to be written; leaves nothing behind. */
+void requireWritable(const std::string& path);
 }  // namespace viwo
