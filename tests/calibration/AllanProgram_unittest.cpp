@@ -38,6 +38,15 @@ TEST(AllanProgram, FromALogAtRestToARigAndPictures)
 	EXPECT_EQ(rig.imu->gyro_walk_rad_s2_sqrtHz, 0);
 	EXPECT_EQ(rig.imu->mounting.y_m, -0.2);
 	for (const char* name : {"a.svg", "a.html"}) EXPECT_NE(readFile(folder.file(name)).find("</svg>"), std::string::npos) << name;
+	const auto panels = [&](const char* name)
+	{
+		const std::string text = readFile(folder.file(name));
+		size_t count = 0;
+		for (size_t at = text.find("<svg "); at != std::string::npos; at = text.find("<svg ", at + 1)) ++count;
+		return count;
+	};
+	EXPECT_EQ(panels("a.svg"), 1u);
+	EXPECT_EQ(panels("a.html"), 2u) << "each as wide as a phone";
 	for (const char* name : {"imu.ini", "a.svg", "a.html", "a.json", "a.csv"})
 		EXPECT_NE(result.out.find(folder.file(name) + "\n"), std::string::npos) << name;
 	EXPECT_NE(readFile(folder.file("a.csv")).find("gyro z,0.01,"), std::string::npos);

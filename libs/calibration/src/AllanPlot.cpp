@@ -229,19 +229,27 @@ class Panel
 };
 }  // namespace
 
-std::string allanPlot(const ImuNoiseResult& result, const SvgPalette& colours)
+std::string allanPlot(const ImuNoiseResult& result, const std::vector<size_t>& sensors, const SvgPalette& colours)
 {
-	std::string body = Panel(result, 0, kLeft, colours).draw() + Panel(result, 3, kLeft + kWidth + kGap, colours).draw();
+	std::string body;
+	double width = 0;
+	for (const size_t first : sensors)
+	{
+		if (width > 0) width += kGap;
+		body += Panel(result, first, kLeft + width, colours).draw();
+		width += kWidth;
+	}
 	std::vector<SvgLegendEntry> entries;
 	for (size_t k = 0; k < 3; ++k) entries.push_back({std::string(1, "xyz"[k]), svgCurveStyle(k, colours)});
 	entries.push_back({"fit", "stroke=\"" + colours.ink + "\" stroke-width=\"1\" stroke-dasharray=\"4 3\""});
 	entries.push_back(
 	    {"slopes -1/2 and +1/2 of the worst axis", "stroke=\"" + colours.muted + "\" stroke-width=\"1\" stroke-dasharray=\"1 3\""});
-	const double width = 2 * kWidth + kGap;
 	double end = svgLegend(entries, kLeft, kBottom + kAxisHeight + 18, width, colours, body);
-	end += 20;
-	body += svgText(kLeft, end, "Filled: N, read at 1 s, and K, read at 3 s. Hollow: least of the fit. Shaded: 95 %.",
-	                "font-size=\"12\" fill=\"" + colours.muted + "\"");
+	if (sensors.size() > 1)
+	{
+		end += 20;
+		body += svgText(kLeft, end, kAllanMarks, "font-size=\"12\" fill=\"" + colours.muted + "\"");
+	}
 	return svgPicture(kLeft + width + kRight, end + 14, "Allan deviation of " + result.imu_label + " at rest", kLeft, colours, body);
 }
 }  // namespace viwo

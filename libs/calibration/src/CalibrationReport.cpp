@@ -30,16 +30,16 @@ int decimalsOf(const CalibrationRow& row)
 
 Table parameterTable(const CalibrationRunResult& result)
 {
-	Table table({{"", "", true}, {"unit", "", true}, {"start", ""}, {"result", ""}, {"deviation", ""}, {"change", ""}, {"", "", true}});
+	Table table({{"", "", true}, {"unit", "", true}, {"start", ""}, {"result", ""}, {"deviation", ""}, {"change", ""}});
 	for (const CalibrationRow& row : result.rows)
 	{
 		const int n = decimalsOf(row);
 		if (row.observed)
 			table.addRow({row.what, row.unit, number(row.start, n), number(row.value, n), number(row.deviation, n),
-			              number(row.value - row.start, n), ""},
+			              number(row.value - row.start, n)},
 			             {3});
 		else
-			table.addRow({row.what, row.unit, number(row.start, n), number(row.value, n), "-", "-", "not observed (input kept)"});
+			table.addRow({row.what, row.unit, number(row.start, n), number(row.value, n), "not observed", "-"});
 	}
 	return table;
 }
@@ -65,6 +65,14 @@ Table qualityTable(const CalibrationRunResult& result)
 		table.addRow({row.what, row.unit, number(before, 3), number(after, 3)});
 	}
 	return table;
+}
+
+/** Below the table. */
+std::string notObservedLine(const CalibrationRunResult& result)
+{
+	for (const CalibrationRow& row : result.rows)
+		if (!row.observed) return "not observed: the drive does not tell it; it is what it was at the start\n";
+	return {};
 }
 
 std::string summaryLine(const CalibrationRunResult& r)
@@ -126,7 +134,7 @@ std::string deviationsText(const CalibrationRunResult& result)
 
 std::string calibrationText(const CalibrationRunResult& result)
 {
-	return summaryLine(result) + "\n\n" + parameterTable(result).toText() + "\n" + qualityTable(result).toText();
+	return summaryLine(result) + "\n\n" + parameterTable(result).toText() + notObservedLine(result) + "\n" + qualityTable(result).toText();
 }
 
 std::string calibrationJson(const CalibrationRunResult& result)

@@ -46,19 +46,17 @@ std::string duration(double seconds)
 Table axesTable(const ImuNoiseResult& result, size_t first)
 {
 	const std::string u = imuAxisUnit(first);
-	Table table({{"axis", "", true},
-	             {"mean", u},
-	             {"white noise N", u + "/sqrt(Hz)"},
-	             {"bias instability B", u},
-	             {"at", "s"},
-	             {"random walk K", first < 3 ? "m/s^3/sqrt(Hz)" : "rad/s^2/sqrt(Hz)"},
-	             {"quantisation Q", u + "*s"}});
-	for (size_t axis = first; axis < first + 3; ++axis)
-	{
-		const NoiseModel& m = result.axes[axis];
-		table.addRow({imuAxisName(axis), digits(result.mean[axis], 4), textOf(m.white), textOf(m.instability),
-		              digits(m.instability.tau_s, 2), textOf(m.walk), textOf(m.quantisation)});
-	}
+	Table table({{"", "", true}, {imuAxisName(first), ""}, {imuAxisName(first + 1), ""}, {imuAxisName(first + 2), ""}});
+	const auto add = [&](const char* what, const std::string& unit, const auto& of) {
+		table.addRow({what + (", " + unit), of(first), of(first + 1), of(first + 2)});
+	};
+	const auto& axes = result.axes;
+	add("mean", u, [&](size_t axis) { return digits(result.mean[axis], 4); });
+	add("white noise N", u + "/sqrt(Hz)", [&](size_t axis) { return textOf(axes[axis].white); });
+	add("bias instability B", u, [&](size_t axis) { return textOf(axes[axis].instability); });
+	add("at the cluster time", "s", [&](size_t axis) { return digits(axes[axis].instability.tau_s, 2); });
+	add("random walk K", first < 3 ? "m/s^3/sqrt(Hz)" : "rad/s^2/sqrt(Hz)", [&](size_t axis) { return textOf(axes[axis].walk); });
+	add("quantisation Q", u + "*s", [&](size_t axis) { return textOf(axes[axis].quantisation); });
 	return table;
 }
 
@@ -142,15 +140,20 @@ std::string imuNoiseOrigin(const ImuNoiseResult& result, const std::string& prog
 
 void saveImuNoiseSvg(const std::string& path, const ImuNoiseResult& result)
 {
-	writeAtomically(path, allanPlot(result, lightPalette()));
+	writeAtomically(path, allanPlot(result, {0, 3}, lightPalette()));
 }
 
 void saveImuNoiseHtml(const std::string& path, const ImuNoiseResult& result)
 {
 	HtmlPage page("Noise of " + result.imu_label);
 	page.paragraph(logLine(result) + ".");
-	page.figure(allanPlot(result, pagePalette()),
-	            "Overlapping Allan deviation of each axis over the cluster time, with the curves fitted after IEEE Std 952");
+	page.beginRow();
+	for (const size_t first : {0u, 3u})
+		page.figure(allanPlot(result, {first}, pagePalette()),
+		            std::string(first == 0 ? "Accelerometer" : "Gyroscope") +
+		                ": overlapping Allan deviation of each axis over the cluster time, with the curves fitted after IEEE Std 952. " +
+		                kAllanMarks);
+	page.endRow();
 	for (const std::string& line : keyLines(result)) page.paragraph(line);
 	page.heading("Axes");
 	page.table(axesTable(result, 0), "");

@@ -33,6 +33,7 @@ figcaption { color: var(--muted); font-size: 0.85rem; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); gap: 0 1rem; align-items: start; }
 .row > .tall { grid-row: span 2; } .row > .wide { grid-column: 1 / -1; }
 details { margin: 1rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; background: var(--band); padding: 0.6rem; font-size: 0.8rem; }
+@media (max-width: 40rem) { table { font-size: 0.75rem; } th, td { padding: 0.2rem 0.25rem; white-space: normal; } th { min-width: 0; } .long { min-width: 6rem; } }
 @media print { :root { --paper: #ffffff; --ink: #000000; --muted: #444444; --grid: #dddddd; --reference: #888888; --band: #ffffff;
   --c1: #0072b2; --c2: #d55e00; --c3: #009e73; --c4: #cc79a7; --c5: #b07a00; --c6: #3a8fc0; }
   :root { font-size: 10px; } body { max-width: none; padding: 0; font-size: 10px; } p { max-width: none; } .scroll { overflow: visible; }
