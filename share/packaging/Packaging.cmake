@@ -52,7 +52,7 @@ endfunction()
 
 set(about "viwo fuses a camera, an IMU and wheel encoders of a wheeled robot into a metric\ntrajectory with covariance, in one sliding window. Recordings are MRPT's\nrawlogs.")
 viwo_package(programs viwo science "visual-inertial-wheel odometry for wheeled robots"
-	"${about}\n\nThe programs: odometry, ground truth and maps of LiDAR scans, OctoMaps,\nevaluation, simulation, import of ROS 1 bags, EuRoC, KITTI and CARMEN.")
+	"${about}\n\nThe programs: odometry, calibration of a robot's sensors from a drive and of\nan IMU's noise, ground truth and maps of LiDAR scans, OctoMaps, evaluation,\nsimulation, import of ROS 1 bags, EuRoC, KITTI and CARMEN.")
 viwo_package(libraries ${package_libraries} libs "visual-inertial-wheel odometry - shared libraries" "${about}\n\nThe libraries that the programs, and others, link.")
 viwo_package(development libviwo-dev libdevel "visual-inertial-wheel odometry - headers"
 	"${about}\n\nHeaders and the CMake package: find_package(viwo), viwo::odometry.")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "Shell.h"
@@ -172,6 +173,30 @@ TEST_F(Packages, ProgramsRunWithoutAPathInThem)
 		EXPECT_EQ(result.status, 0) << result.err;
 		EXPECT_EQ(result.out.find(name + " (viwo) "), 0u) << result.out;
 	}
+}
+
+/** As somebody reads them who has installed viwo. */
+TEST_F(Packages, LinksOfTheInstalledPagesLeadSomewhere)
+{
+	const TempFolder root;
+	for (const std::string& file : packageFiles()) ASSERT_EQ(bash("dpkg-deb -x \"$1\" \"$2\"", {file, root.path()}).status, 0);
+	const std::regex link("\\]\\(([^()#\\s]+)(#[^()\\s]*)?\\)");
+	size_t pages = 0, links = 0;
+	for (const auto& page : std::filesystem::recursive_directory_iterator(root.file("usr/share/doc/viwo")))
+	{
+		if (page.path().extension() != ".md") continue;
+		++pages;
+		const std::string text = readFile(page.path().string());
+		for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it)
+		{
+			const std::string target = (*it)[1];
+			if (target.find("://") != std::string::npos || target == "const") continue;  // "[](const viwo::FrameEstimate& ..."
+			++links;
+			EXPECT_TRUE(std::filesystem::exists(page.path().parent_path() / target)) << page.path() << " -> " << target;
+		}
+	}
+	EXPECT_GT(pages, 10u);
+	EXPECT_GT(links, 50u);
 }
 
 TEST_F(Packages, LintianFindsNoError)
