@@ -1,4 +1,5 @@
 #include <viwo/app/Program.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/importers/CarmenImporter.h>
 #include <viwo/importers/EurocImporter.h>
 #include <viwo/importers/KittiImporter.h>
@@ -44,19 +45,21 @@ void print(const ImportJob& job, const ImportResult& result)
 	const auto count = [&separator](size_t number, const char* what, bool always = false)
 	{
 		if (number == 0 && !always) return;
-		std::printf("%s%zu %s", separator, number, what);
+		std::printf("%s%s", separator, counted(number, what).c_str());
 		separator = ", ";
 	};
 	const bool of_lasers = result.scans > 0 && result.images == 0 && result.imu_samples == 0;
-	count(result.scans, "scans");
-	count(result.images, "images", !of_lasers);
-	count(result.imu_samples, "IMU samples", !of_lasers);
-	count(result.odometry_samples, "odometry samples", true);
-	count(result.gps_fixes, "GPS fixes");
-	count(result.point_clouds, "point clouds");
+	count(result.scans, "scan");
+	count(result.images, "image", !of_lasers);
+	count(result.imu_samples, "IMU sample", !of_lasers);
+	count(result.odometry_samples, "odometry sample", true);
+	count(result.gps_fixes, "GPS reading");
+	count(result.point_clouds, "point cloud");
 	std::printf(" in %.3f s\n", result.duration_s);
 	if (!result.stamps_path.empty()) std::printf("%s: original stamps\n", result.stamps_path.c_str());
-	if (!result.ground_truth_path.empty()) std::printf("%s: %zu poses of O\n", result.ground_truth_path.c_str(), result.ground_truth_poses);
+	if (!result.ground_truth_path.empty())
+		std::printf("%s: %s%s\n", result.ground_truth_path.c_str(), counted(result.ground_truth_poses, "pose").c_str(),
+		            result.ground_truth_assumed ? ", taken for those of O" : " of O");
 	if (!result.gps_path.empty()) std::printf("%s: positions of the GPS antenna\n", result.gps_path.c_str());
 	std::fflush(stdout);
 	if (app::quiet()) return;

@@ -39,7 +39,7 @@ void declare(CLI::App& cli, Arguments& a)
 	    ->check(CLI::IsMember({"O", "B", "C"}))
 	    ->capture_default_str();
 	cli.add_option("--from", a.run.from_s, "Start here, s from the first stamp of the labels in use")->check(app::nonNegative());
-	cli.add_option("--to", a.run.to_s, "Stop here, s from the log's first stamp")->check(app::nonNegative());
+	cli.add_option("--to", a.run.to_s, "Stop here, s from the first stamp of the labels in use")->check(app::nonNegative());
 	CLI::Option* const realtime = cli.add_flag("--realtime", a.realtime, "Replay by the log's clock");
 	cli.add_option("--speed", a.speed, "With --realtime: times the log's clock")
 	    ->check(app::positive())

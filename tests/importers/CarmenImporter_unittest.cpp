@@ -143,7 +143,7 @@ TEST(CarmenImporter, StampsThatRunBackKeepTheOrderOfTheFile)
 	for (size_t i = 0; i < stamps.size(); ++i) EXPECT_EQ(content.odometry[i]->odometry.x(), static_cast<double>(i));
 	for (size_t i = 1; i < stamps.size(); ++i) EXPECT_LT(content.scans[i - 1]->timestamp, content.scans[i]->timestamp);
 	ASSERT_EQ(result.notes.size(), 1u);
-	EXPECT_NE(result.notes[0].find("run back 1 times"), std::string::npos) << result.notes[0];
+	EXPECT_NE(result.notes[0].find("run back 1 time;"), std::string::npos) << result.notes[0];
 
 	std::istringstream csv(readFile(folder.file("x_stamps.csv")));
 	std::string line;
@@ -186,7 +186,8 @@ TEST(CarmenImporter, SaysWhatIsWrongInOneLine)
 		writeFile(folder.file("x.clf"), log);
 		expectError([&] { importCarmen({folder.file("x.clf"), folder.file("x.rawlog")}); }, parts);
 	};
-	expectFailure("", {"x.clf", "no FLASER"});
+	expectFailure("", {"x.clf", "the file is empty"});
+	expectFailure("hello\n", {"x.clf", "no FLASER"});
 	expectFailure("FLASER\n", {"x.clf:1", "ends too early"});
 	expectFailure("# c\nFLASER 3 1 2\n", {"x.clf:2", "ends too early"});
 	expectFailure("FLASER -3 1 2\n", {"x.clf:1", "'-3'"});

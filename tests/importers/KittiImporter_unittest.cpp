@@ -26,8 +26,8 @@ TEST(KittiImporter, CarriesEveryObservation)
 	EXPECT_EQ(result.odometry_samples, 100u);
 	EXPECT_EQ(result.ground_truth_poses, 100u);
 	ASSERT_GE(result.notes.size(), 2u);
-	EXPECT_EQ(result.notes[0], "1 of 21 images are not there and were left out");
-	EXPECT_EQ(result.notes[1], "1 of 101 OXTS packets are not there and were left out");
+	EXPECT_EQ(result.notes[0], "left out, as not there: 1 of 21 images");
+	EXPECT_EQ(result.notes[1], "left out, as not there: 1 of 101 OXTS packets");
 
 	const RawlogContent content(folder.file("x.rawlog"));
 	ASSERT_EQ(content.images.size(), 20u);

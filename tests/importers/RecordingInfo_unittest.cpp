@@ -65,7 +65,7 @@ TEST(RecordingInfo, KittiFolder)
 	EXPECT_EQ(info.kind, "KITTI drive");
 	EXPECT_EQ(stream(info, "image_00", SensorRole::camera).count, 20u);
 	EXPECT_NEAR(stream(info, "image_00", SensorRole::camera).largest_gap_s, 0.2, 1e-6);
-	expectText(info, {"note: 1 images of timestamps.txt are missing"});
+	expectText(info, {"note: missing: 1 image of timestamps.txt\n"});
 }
 
 TEST(RecordingInfo, GapsJitterAndWhatIsMissing)
@@ -84,7 +84,20 @@ TEST(RecordingInfo, GapsJitterAndWhatIsMissing)
 	EXPECT_NEAR(odometry.rate_hz, 99 / 5.452, 1e-6);
 	EXPECT_NEAR(odometry.largest_gap_s, 0.548, 1e-6);
 	EXPECT_NEAR(odometry.jitter_s, 0.004, 1e-6);
-	expectText(info, {"--mode wheel      yes\n", "--mode wio        no, without an IMU\n", "CAM: 1 image files are missing"});
+	expectText(info, {"--mode wheel      yes\n", "--mode wio        no, without an IMU\n", "CAM: missing: 1 image file\n"});
+}
+
+TEST(RecordingInfo, WhatIsOfNoKindIsSaidToBeOfNone)
+{
+	const TempFolder folder;
+	const std::string trajectory = write(folder, "x.tum", "1600000000.0 0 0 0 0 0 0 1\n1600000000.1 0 0 0 0 0 0 1\n");
+	for (const std::string& path :
+	     {trajectory, write(folder, "x.html", "<html></html>\n"), write(folder, "x.png", std::string("\x89PNG\0", 5))})
+		expectError([&] { inspect(path); }, {path, "none of these", "rawlog", "ROS bag", "CARMEN", "EuRoC", "KITTI"});
+	for (const std::string& path : {std::string("/dev/null"), write(folder, "empty.txt", "")})
+		expectError([&] { inspect(path); }, {path, "empty"});
+	expectError([&] { inspect(write(folder, "x.log", "PARAM robot_frontlaser_offset 0.1\n")); }, {"no FLASER"});
+	expectError([&] { inspect(write(folder, "y.log", "FLASER 2 1\n")); }, {"y.log:1", "ends too early"});
 }
 
 TEST(RecordingInfo, Program)

@@ -4,6 +4,9 @@
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "ExpectError.h"
 #include "TempFolder.h"
 
@@ -146,6 +149,20 @@ TEST_F(InputCheck, AccelerometerThatDoesNotReadMetresPerSecondSquared)
 	reading(0, Mode::viwo, {"IMU", "gravity", "m/s^2"});
 	reading(1, Mode::vio, {"IMU", "units of g"});
 	reading(9810, Mode::wio, {"IMU", "9.81e+03", "m/s^2"});
+}
+
+TEST_F(InputCheck, LogsInTheWrongOrderAreToldBeforehand)
+{
+	Robot robot;
+	std::filesystem::rename(logOf(folder_, robot), folder_.file("first.rawlog"));
+	robot.imu_clock_s = robot.odometry_clock_s = robot.image_clock_s = 10;
+	std::filesystem::rename(logOf(folder_, robot), folder_.file("second.rawlog"));
+	OdometryRunOptions o = options(folder_.file("first.rawlog"), Mode::viwo);
+	o.rawlogs.push_back(folder_.file("second.rawlog"));
+	EXPECT_NO_THROW(checkInput(o));
+	std::swap(o.rawlogs[0], o.rawlogs[1]);
+	viwo::testing::expectError([&] { checkInput(o); },
+	                           {"first.rawlog: begins 10.0 s before", "second.rawlog; give", "order of their time"});
 }
 
 TEST_F(InputCheck, MissingMaskIsToldByConfigurationAndKey)

@@ -5,6 +5,7 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -195,6 +196,19 @@ TEST_F(OdometryRun, LogTooShortForAPose)
 	OdometryRunOptions o = options();
 	o.to_s = 0.2;
 	viwo::testing::expectError([&] { runOdometry(o); }, {o.rawlogs.front(), "no pose"});
+}
+
+TEST_F(OdometryRun, PartWithoutAFrameIsToldWithTheLengthOfTheLog)
+{
+	OdometryRunOptions o = options();
+	o.from_s = 100;
+	const auto all = log_.observations();
+	char length[32];
+	std::snprintf(length, sizeof length, "has %.1f s",
+	              secondsBetween(nanosecondsOf(all.front()->timestamp), nanosecondsOf(all.back()->timestamp)));
+	viwo::testing::expectError([&] { runOdometry(o); }, {o.rawlogs.front(), "no pose", "--from 100 s is behind the end", length});
+	o.from_s = 0.5, o.to_s = 0.501;
+	viwo::testing::expectError([&] { runOdometry(o); }, {"no pose", "no frame between --from 0.5 and --to 0.501 s"});
 }
 
 TEST_F(OdometryRun, EarlierResultsStayUntilNewOnesAreWhole)

@@ -169,6 +169,28 @@ TEST_F(RawlogWriterTest, NothingAppearsWithoutClose)
 	expectError([&] { RawlogWriter(folder.file("none/x.rawlog")); }, {"none/x.rawlog", "no folder"});
 }
 
+TEST_F(RawlogWriterTest, ImagesOfARawlogThatDoesNotAppearAreRemoved)
+{
+	for (const bool earlier_images : {false, true})
+	{
+		const std::string images = folder.file("x_Images"), kept = images + "/" + RawlogWriter::imageName("CAM", kStart_ns);
+		if (earlier_images) fs::create_directory(images), writeFile(kept, "earlier");
+		{
+			RawlogWriter writer(folder.file("x.rawlog"));
+			writeFile(writer.imagePath("CAM", kStart_ns), "later");
+			writeFile(writer.imagePath("CAM", kStart_ns + 1000), "later");
+		}
+		EXPECT_EQ(fs::exists(images), earlier_images);
+		EXPECT_EQ(fs::exists(kept), earlier_images);
+		EXPECT_FALSE(fs::exists(images + "/" + RawlogWriter::imageName("CAM", kStart_ns + 1000)));
+	}
+	RawlogWriter writer(folder.file("x.rawlog"));
+	const std::string image = writer.imagePath("CAM", kStart_ns + 1000);
+	writeFile(image, "later");
+	writer.close();
+	EXPECT_TRUE(fs::exists(image));
+}
+
 TEST_F(RawlogWriterTest, FullDiskIsAnError)
 {
 	if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";

@@ -12,4 +12,9 @@ std::string fixed(double value, int decimals)
 	std::snprintf(text, sizeof text, "%.*f", decimals, value);
 	return text;
 }
+
+std::string counted(size_t number, const std::string& noun)
+{
+	return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
 }  // namespace viwo

@@ -2,6 +2,7 @@
 
 #include "RosInstance.h"
 
+#include <viwo/core/NumberText.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/MrptTime.h>
@@ -114,7 +115,10 @@ void RosBagImport::convert(const rosbag::MessageInstance& message, const RosSour
 	if (source.type == "sensor_msgs/Imu")
 	{
 		observation = imuObservation(message, t_ns, source.T_OS, label);
-		tallies_[label].force_sum_O += source.T_OS.R * readImu(message, t_ns).acc_m_s2;
+		if (const ImuSample sample = readImu(message, t_ns); isFinite(sample))
+			tallies_[label].force_sum_O += source.T_OS.R * sample.acc_m_s2;
+		else
+			++tallies_[label].not_finite;
 		++result_.imu_samples;
 	}
 	else if (isOdometryType(source.type))
@@ -154,7 +158,7 @@ mrpt::obs::CObservation::Ptr RosBagImport::odometryOf(const rosbag::MessageInsta
 	}
 	const auto observation = odometryObservation(message, t_ns, source.mapping.label);
 	const auto& odometry = dynamic_cast<const mrpt::obs::CObservationOdometry&>(*observation);
-	tally.moves = tally.moves || odometry.velocityLocal.vx != 0 || odometry.velocityLocal.omega != 0;
+	tally.moves = tally.moves || std::abs(odometry.velocityLocal.vx) > 0 || std::abs(odometry.velocityLocal.omega) > 0;
 	tally.first_to_last_m = std::max(tally.first_to_last_m, odometry.odometry.norm());
 	++result_.odometry_samples;
 	return observation;
@@ -196,8 +200,7 @@ void RosBagImport::takeTruth(const rosbag::MessageInstance& message)
 	const RosHeader header = readHeader(message);
 	const auto T_WS = readPose(message);
 	if (!T_WS) return;
-	const auto T_SO = header.child_frame.empty() ? std::nullopt : found_.frames().find(header.child_frame, found_.baseFrame());
-	truth_.push_back({stampOf(header, record_time_), *T_WS * T_SO.value_or(Pose3())});
+	truth_.push_back({stampOf(header, record_time_), *T_WS * found_.truth().T_SO.value_or(Pose3())});
 }
 
 void RosBagImport::writeTracks()
@@ -211,6 +214,7 @@ void RosBagImport::writeTracks()
 	const Trajectory truth = trajectoryOf(truth_);
 	result_.ground_truth_path = besideRawlog(job_.rawlog_path, "_ground_truth.tum");
 	result_.ground_truth_poses = truth.size();
+	result_.ground_truth_assumed = !found_.truth().T_SO;
 	truth.saveTum(result_.ground_truth_path);
 }
 
@@ -220,19 +224,18 @@ void RosBagImport::addNotes()
 	result_.notes.insert(result_.notes.end(), pictures_.notes().begin(), pictures_.notes().end());
 	for (const RosSource& source : found_.sources()) addNotesOf(source, tallies_[source.mapping.label]);
 	if (order_.outOfOrder() > 0)
-		result_.notes.push_back(
-		    text("%zu observations came after one with a later stamp and were put in order", order_.outOfOrder() - order_.late()));
+		result_.notes.push_back("put in order: " + counted(order_.outOfOrder() - order_.late(), "observation") +
+		                        " that came after one with a later stamp");
 	if (order_.late() > 0)
 		result_.notes.push_back(
-		    text("%zu observations came more than %.0f s late and stand where they came: does a sensor have another clock? "
-		         "--record-time takes the recorder's",
-		         order_.late(), kReorder_s));
+		    text("out of order, as more than %.0f s late: %s: does a sensor have another clock? --record-time takes the recorder's",
+		         kReorder_s, counted(order_.late(), "observation").c_str()));
 	if (gps_origin_)
 		result_.notes.push_back(
 		    text("%s: positions of the antenna (not of O, and without an attitude), east-north-up of the first fix at %.8f "
-		         "%.8f deg, %.3f m; %zu of %zu messages had a fix",
+		         "%.8f deg, %.3f m; with a fix: %zu of %s",
 		         result_.gps_path.c_str(), gps_origin_->latitude_deg, gps_origin_->longitude_deg, gps_origin_->altitude_m, gps_.size(),
-		         result_.gps_fixes));
+		         counted(result_.gps_fixes, "message").c_str()));
 }
 
 void RosBagImport::addNotesOf(const RosSource& source, const Tally& tally)
@@ -240,8 +243,9 @@ void RosBagImport::addNotesOf(const RosSource& source, const Tally& tally)
 	const char* label = source.mapping.label.c_str();
 	const auto note = [this](const std::string& line) { result_.notes.push_back(line); };
 	if (tally.without_stamp > 0)
-		note(text("%s: %zu of %zu headers have no stamp; the time of recording was taken", label, tally.without_stamp, tally.messages));
-	if (tally.same_stamp > 0) note(text("%s: %zu pictures with the stamp of another one were left out", label, tally.same_stamp));
+		note(text("%s: without a stamp: %zu of %zu headers; the time of recording was taken", label, tally.without_stamp, tally.messages));
+	if (tally.same_stamp > 0)
+		note(text("%s: left out: %s with the stamp of another one", label, counted(tally.same_stamp, "picture").c_str()));
 	if (isOdometryType(source.type) && !tally.moves && tally.first_to_last_m > 0)
 		note(text("%s: all twists are zero, but the pose moves: use odometry_source = pose", label));
 	if (source.placed)
@@ -252,7 +256,10 @@ void RosBagImport::addNotesOf(const RosSource& source, const Tally& tally)
 			          motion.rotation_rad / kDegree));
 	}
 	if (source.type != "sensor_msgs/Imu") return;
-	const Eigen::Vector3d force_O = tally.force_sum_O / static_cast<double>(std::max<size_t>(1, tally.messages));
+	if (tally.not_finite > 0)
+		note(text("%s: not finite: %zu of %zu samples; viwo-odometry will leave them out", label, tally.not_finite, tally.messages));
+	if (tally.not_finite == tally.messages) return;
+	const Eigen::Vector3d force_O = tally.force_sum_O / static_cast<double>(tally.messages - tally.not_finite);
 	const double tilt_rad = std::acos(std::clamp(force_O.normalized().z(), -1.0, 1.0));
 	if (force_O.norm() < 9 || force_O.norm() > 10.6)
 		note(text("%s: the mean specific force is %.3f m/s^2, not 9.8: %s", label, force_O.norm(),

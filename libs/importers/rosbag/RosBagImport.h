@@ -29,7 +29,7 @@ class RosBagImport
 	/** What is gathered about a topic on the way. */
 	struct Tally
 	{
-		size_t messages = 0, without_stamp = 0, same_stamp = 0;
+		size_t messages = 0, without_stamp = 0, same_stamp = 0, not_finite = 0;
 		std::set<int64_t> image_stamps;
 		Eigen::Vector3d force_sum_O = Eigen::Vector3d::Zero();  //!< of an IMU
 		bool moves = false;                                     //!< of an odometry: any twist but zero

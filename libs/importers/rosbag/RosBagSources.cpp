@@ -1,6 +1,7 @@
 #include "RosBagSources.h"
 
 #include "RosInstance.h"
+#include "RosWheels.h"
 
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
@@ -51,38 +52,68 @@ RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool
 	chooseBaseFrame(map.general.base_frame);
 	readFrames();
 	chooseBaseFrame(map.general.base_frame);
+	requireBaseFrame();
+	placeTruth();
 	for (RosSource& source : sources_)
 	{
 		if (isImageType(source.type)) readCamera(source);
+		if (source.type == "sensor_msgs/JointState") requireWheels(bag, source.mapping);
 		place(source);
 		if (!source.placed && source.type == "sensor_msgs/Imu") placeByGravity(source, record_time);
 	}
 }
 
+RosHeader RosBagSources::firstHeader(const std::string& topic)
+{
+	std::optional<RosHeader> first;
+	bag_.visit({topic},
+	           [&](const rosbag::MessageInstance& message)
+	           {
+		           first = readHeader(message);
+		           return false;
+	           });
+	if (!first) throw Error(bag_.name() + ": " + topic + " has no message; leave it out by a --map");
+	for (const std::string& frame : {first->frame, first->child_frame})
+		if (!frame.empty()) frames_of_headers_.insert(FrameTree::plainName(frame));
+	return *first;
+}
+
 void RosBagSources::readHeaders(const RosTopicMap& map)
 {
+	truth_.topic = map.general.ground_truth;
+	if (!truth_.topic.empty()) truth_.child_frame = FrameTree::plainName(firstHeader(truth_.topic).child_frame);
 	for (const TopicMapping& mapping : map.topics)
 	{
 		RosSource source;
 		source.mapping = mapping;
 		source.type = typeOf(bag_.topics(), mapping.topic);
-		bool found = false;
-		bag_.visit({mapping.topic},
-		           [&](const rosbag::MessageInstance& message)
-		           {
-			           const RosHeader header = readHeader(message);
-			           source.frame = header.frame;
-			           source.child_frame = header.child_frame;
-			           found = true;
-			           return false;
-		           });
-		if (!found) throw Error(bag_.name() + ": " + mapping.topic + " has no message; leave it out by a --map");
+		const RosHeader header = firstHeader(mapping.topic);
+		source.frame = header.frame;
+		source.child_frame = header.child_frame;
 		sources_.push_back(std::move(source));
 	}
 }
 
+bool RosBagSources::isKnown(const std::string& frame) const
+{
+	return frames_.has(frame) || frames_of_headers_.count(frame) > 0;
+}
+
+void RosBagSources::requireBaseFrame() const
+{
+	if (base_frame_.empty() || isKnown(base_frame_)) return;
+	std::set<std::string> known = frames_.names();
+	known.insert(frames_of_headers_.begin(), frames_of_headers_.end());
+	std::string names;
+	for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+	throw Error(bag_.name() + ": [general] base_frame = " + base_frame_ +
+	            ": neither tf nor a message names this frame; there are: " + (names.empty() ? "none" : names));
+}
+
 bool RosBagSources::allPlaced() const
 {
+	if (!base_frame_.empty() && !isKnown(base_frame_)) return false;
+	if (!truth_.child_frame.empty() && !base_frame_.empty() && !frames_.find(truth_.child_frame, base_frame_)) return false;
 	return std::all_of(sources_.begin(), sources_.end(),
 	                   [this](const RosSource& source) {
 		                   return !needsPose(source.type) || source.mapping.sensorPose() ||
@@ -122,6 +153,18 @@ void RosBagSources::chooseBaseFrame(const std::string& wanted)
 		if (base_frame_.empty()) base_frame_ = FrameTree::plainName(source.child_frame);
 	for (const char* usual : {"base_link", "base_footprint"})
 		if (base_frame_.empty() && frames_.has(usual)) base_frame_ = usual;
+}
+
+void RosBagSources::placeTruth()
+{
+	if (truth_.topic.empty()) return;
+	if (!truth_.child_frame.empty() && !base_frame_.empty()) truth_.T_SO = frames_.find(truth_.child_frame, base_frame_);
+	if (truth_.T_SO) return;
+	const std::string why = truth_.child_frame.empty()
+	                            ? "its messages do not say of which frame their poses are"
+	                            : "tf has no way from its frame '" + truth_.child_frame + "' to '" + base_frame_ + "'";
+	notes_.push_back(truth_.topic + ": " + why +
+	                 "; the ground truth takes them for poses of O: what lies between the two will look like an error of an estimate");
 }
 
 void RosBagSources::place(RosSource& source)
@@ -176,21 +219,25 @@ void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 	std::vector<ImuSample> imu;
 	std::vector<StampedTwist> odometry;
 	std::set<std::string> topics{source.mapping.topic};
+	std::optional<int64_t> begin_ns;
 	if (odometry_source != sources_.end()) topics.insert(odometry_source->mapping.topic);
 	bag_.visit(topics,
 	           [&](const rosbag::MessageInstance& message)
 	           {
-		           const int64_t t_ns = stampOf(readHeader(message), record_time);
+		           const RosHeader header = readHeader(message);
+		           const int64_t t_ns = stampOf(header, record_time);
 		           if (message.getTopic() == source.mapping.topic)
 			           imu.push_back(readImu(message, t_ns));
 		           else
 			           odometry.push_back(readTwist(message, t_ns));
-		           return imu.empty() || secondsBetween(imu.front().t_ns, t_ns) < kLongestLook_s;
+		           // By the recorder's clock: those of the sensors may be apart.
+		           if (!begin_ns && !imu.empty()) begin_ns = header.record_ns;
+		           return !begin_ns || secondsBetween(*begin_ns, header.record_ns) < kLongestLook_s;
 	           });
 	const auto axes = guessImuAxes(imu, odometry);
 	if (!axes)
 	{
-		notes_.push_back(source.mapping.label + ": too few samples to tell its axes; assumed those of O");
+		notes_.push_back(source.mapping.label + ": fewer than ten samples to tell its axes; assumed those of O");
 		return;
 	}
 	source.T_OS.R = axes->R_OB;

@@ -5,6 +5,7 @@
 #include "RosMessages.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,23 +23,37 @@ struct RosSource
 	CameraModel camera;   //!< of images; focal length 0 where there is no calibration
 };
 
+/** The topic that has the truth. */
+struct RosTruth
+{
+	std::string topic;        //!< empty: none
+	std::string child_frame;  //!< whose poses these are; empty: the messages do not say
+	/** O in that frame; nothing where no chain of transforms leads there. */
+	std::optional<Pose3> T_SO;
+};
+
 /** Looks through the bag for all of that: headers, tf, camera infos, and the axes of an IMU that nobody places. */
 class RosBagSources
 {
    public:
-	/** @throws Error: a topic without messages, a lens that is not supported. */
+	/** @throws Error: a topic without messages, a lens that is not supported, a base frame or a joint that is not there. */
 	RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool record_time);
 
 	std::vector<RosSource>& sources() { return sources_; }
 	FrameTree& frames() { return frames_; }
+	const RosTruth& truth() const { return truth_; }
 	const std::string& baseFrame() const { return base_frame_; }
 	const std::vector<std::string>& notes() const { return notes_; }
 
    private:
+	RosHeader firstHeader(const std::string& topic);
 	void readHeaders(const RosTopicMap& map);
 	void readFrames();
 	void chooseBaseFrame(const std::string& wanted);
+	bool isKnown(const std::string& frame) const;
+	void requireBaseFrame() const;
 	bool allPlaced() const;
+	void placeTruth();
 	void place(RosSource& source);
 	void readCamera(RosSource& source);
 	void placeByGravity(RosSource& source, bool record_time);
@@ -46,6 +61,8 @@ class RosBagSources
 	const RosBagFile& bag_;
 	std::vector<RosSource> sources_;
 	FrameTree frames_;
+	RosTruth truth_;
+	std::set<std::string> frames_of_headers_;
 	std::string base_frame_;
 	std::vector<std::string> notes_;
 };

@@ -4,6 +4,7 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <viwo/core/AtomicFile.h>
+#include <viwo/core/NumberText.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,7 @@ cv::Mat pixelsOf(const sensor_msgs::Image& image, const Encoding& encoding, cons
 	if (image.width == 0 || image.height == 0 || image.step < row_bytes ||
 	    image.data.size() < static_cast<size_t>(image.step) * image.height)
 		throw Error(topic + ": a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) + " " + image.encoding +
-		            " has only " + std::to_string(image.data.size()) + " bytes: damaged");
+		            " has only " + counted(image.data.size(), "byte") + ": damaged");
 	cv::Mat pixels = cv::Mat(static_cast<int>(image.height), static_cast<int>(image.width), encoding.cv_type,
 	                         const_cast<uint8_t*>(image.data.data()), image.step)
 	                     .clone();

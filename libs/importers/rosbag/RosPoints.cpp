@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <viwo/core/MrptPose.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/rawlog/MrptTime.h>
 
 #include <cmath>
@@ -39,8 +40,8 @@ mrpt::obs::CObservation::Ptr cloudObservation(const rosbag::MessageInstance& mes
 	const size_t x = offsetOf(*ros, "x", topic), y = offsetOf(*ros, "y", topic), z = offsetOf(*ros, "z", topic);
 	const size_t rows = ros->height, columns = ros->width;
 	if (rows * ros->row_step > ros->data.size() || columns * ros->point_step > ros->row_step)
-		throw Error(topic + ": a cloud of " + std::to_string(rows * columns) + " points has only " + std::to_string(ros->data.size()) +
-		            " bytes: damaged");
+		throw Error(topic + ": a cloud of " + std::to_string(rows * columns) + " points has only " + counted(ros->data.size(), "byte") +
+		            ": damaged");
 
 	const auto points = mrpt::maps::CSimplePointsMap::Create();
 	points->reserve(rows * columns);

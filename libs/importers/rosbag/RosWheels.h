@@ -1,9 +1,13 @@
 #pragma once
 
+#include "RosBagFile.h"
 #include "RosMessages.h"
 
 namespace viwo
 {
+/** @throws Error: no message of the topic has all joints that the map names, with a value of each. It lists those that are there. */
+void requireWheels(const RosBagFile& bag, const TopicMapping& mapping);
+
 /** Joints of the wheels to the vehicle's motion. */
 class RosWheels
 {

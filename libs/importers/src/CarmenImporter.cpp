@@ -3,6 +3,7 @@
 
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/core/Time.h>
 #include <viwo/importers/CarmenImporter.h>
 #include <viwo/rawlog/MrptTime.h>
@@ -44,9 +45,9 @@ std::vector<int64_t> stampsOf(const std::vector<Item>& items)
 std::string repairNote(const std::string& what, const RepairedStamps& stamps)
 {
 	char text[256];
-	std::snprintf(text, sizeof text,
-	              "stamps of %s run back %zu times: %zu of %zu were moved, by up to %.3f s, to keep the order of the file", what.c_str(),
-	              stamps.backwards, stamps.changed, stamps.t_ns.size(), static_cast<double>(stamps.largest_change_ns) * 1e-9);
+	std::snprintf(text, sizeof text, "stamps of %s run back %s; moved, by up to %.3f s, to keep the order of the file: %zu of %zu",
+	              what.c_str(), counted(stamps.backwards, "time").c_str(), static_cast<double>(stamps.largest_change_ns) * 1e-9,
+	              stamps.changed, stamps.t_ns.size());
 	return text;
 }
 
@@ -111,15 +112,15 @@ ImportResult importCarmen(const ImportJob& job)
 	const auto empty = [](const CarmenScan& scan) { return scan.ranges_m.empty(); };
 	const size_t scans_read = log.scans.size();
 	log.scans.erase(std::remove_if(log.scans.begin(), log.scans.end(), empty), log.scans.end());
-	if (log.scans.empty()) throw Error(job.folder + ": all " + std::to_string(scans_read) + " scans are without readings");
+	if (log.scans.empty()) throw Error(job.folder + ": all scans are without readings (" + std::to_string(scans_read) + " of them)");
 
 	ImportResult result;
 	if (log.scans.size() < scans_read)
-		result.notes.push_back(std::to_string(scans_read - log.scans.size()) + " scans without readings were left out");
+		result.notes.push_back("left out: " + counted(scans_read - log.scans.size(), "scan") + " without readings");
 	const RepairedStamps scan_stamps = repairStamps(stampsOf(log.scans)), odometry_stamps = repairStamps(stampsOf(log.odometry));
 	if (scan_stamps.backwards > 0) result.notes.push_back(repairNote("scans", scan_stamps));
 	if (odometry_stamps.backwards > 0) result.notes.push_back(repairNote("ODOM lines", odometry_stamps));
-	for (const auto& [kind, count] : log.other_lines) result.notes.push_back(std::to_string(count) + " " + kind + " lines were left out");
+	for (const auto& [kind, count] : log.other_lines) result.notes.push_back("left out: " + counted(count, kind + " line"));
 
 	writeRawlog(job, log, scan_stamps, odometry_stamps, result);
 	result.stamps_path = stampsPath(job.rawlog_path);

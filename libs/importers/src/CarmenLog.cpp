@@ -140,8 +140,10 @@ CarmenLog readCarmenLog(const std::string& path)
 {
 	CarmenLog log;
 	LaserParameters parameters;
-	size_t line_number = 0;
-	for (const std::string& line : readTextLines(path))
+	size_t line_number = 0, carmen_lines = 0;
+	const std::vector<std::string> lines = readTextLines(path);
+	if (lines.empty()) throw Error(path + ": the file is empty; record or copy it again");
+	for (const std::string& line : lines)
 	{
 		Words words(line, path + ":" + std::to_string(++line_number));
 		if (words.empty()) continue;
@@ -162,9 +164,15 @@ CarmenLog readCarmenLog(const std::string& path)
 			log.scans.push_back(std::move(scan));
 		}
 		else
+		{
 			++log.other_lines[kind];
+			continue;
+		}
+		++carmen_lines;
 	}
-	if (log.scans.empty()) throw Error(path + ": no FLASER, RLASER or ROBOTLASER1 line; this is not a CARMEN log with scans");
+	const std::string no_scan = path + ": no FLASER, RLASER or ROBOTLASER1 line; this is not a CARMEN log with scans";
+	if (carmen_lines == 0) throw OtherFormat(no_scan);
+	if (log.scans.empty()) throw Error(no_scan);
 	return log;
 }
 }  // namespace viwo

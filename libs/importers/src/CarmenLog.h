@@ -42,7 +42,8 @@ struct CarmenLog
  *
  *  Beams of FLASER and RLASER: the first at -90 deg; 180 beams step 1 deg (the last at 89 deg), 360 beams 0.5 deg (89.5), 181 and 361 end
  * at 90 deg; any other number spans 180 deg.
- *  @throws Error naming file and line: words missing, no number, no stamp; or no scan in the log.
+ *  @throws Error naming file and line: words missing, no number, no stamp; no scan in the log; empty; OtherFormat without any line of
+ *  such a log.
  */
 CarmenLog readCarmenLog(const std::string& path);
 }  // namespace viwo

@@ -25,6 +25,13 @@ bool FrameTree::has(const std::string& frame) const
 	return edges_.count(name) > 0 || std::any_of(edges_.begin(), edges_.end(), [&](const auto& e) { return e.second.parent == name; });
 }
 
+std::set<std::string> FrameTree::names() const
+{
+	std::set<std::string> names;
+	for (const auto& [child, edge] : edges_) names.insert({child, edge.parent});
+	return names;
+}
+
 std::vector<std::string> FrameTree::ancestry(const std::string& frame) const
 {
 	std::vector<std::string> chain{plainName(frame)};

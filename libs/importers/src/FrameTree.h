@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ class FrameTree
 
 	/** Whether any transform names the frame. */
 	bool has(const std::string& frame) const;
+	std::set<std::string> names() const;
 
 	struct Motion
 	{

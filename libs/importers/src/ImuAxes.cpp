@@ -3,8 +3,9 @@
 #include <viwo/core/Time.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace viwo
 {
@@ -24,21 +25,26 @@ struct Bin
 	size_t imu_samples = 0, odometry_samples = 0;
 };
 
-std::vector<Bin> meansOverTime(const std::vector<ImuSample>& imu, const std::vector<StampedTwist>& odometry)
+/** By number, from the first sample on; those without any sample are not there, so that a stamp far off takes no memory. */
+using Bins = std::map<int64_t, Bin>;
+
+Bins meansOverTime(const std::vector<ImuSample>& imu, const std::vector<StampedTwist>& odometry)
 {
-	const int64_t begin_ns = imu.front().t_ns;
-	const auto size = static_cast<size_t>(secondsBetween(begin_ns, imu.back().t_ns) / kBin_s) + 1;
-	std::vector<Bin> bins(size);
-	const auto binOf = [&](int64_t t_ns) -> Bin*
-	{
-		const double place = secondsBetween(begin_ns, t_ns) / kBin_s;
-		return place < 0 || place >= static_cast<double>(size) ? nullptr : &bins[static_cast<size_t>(place)];
-	};
+	Bins bins;
+	const auto binOf = [&](int64_t t_ns) -> Bin&
+	{ return bins[static_cast<int64_t>(std::floor(secondsBetween(imu.front().t_ns, t_ns) / kBin_s))]; };
 	for (const ImuSample& sample : imu)
-		if (Bin* bin = binOf(sample.t_ns)) bin->force_B += sample.acc_m_s2, bin->gyro_B += sample.gyro_rad_s, ++bin->imu_samples;
+	{
+		Bin& bin = binOf(sample.t_ns);
+		bin.force_B += sample.acc_m_s2, bin.gyro_B += sample.gyro_rad_s, ++bin.imu_samples;
+	}
 	for (const StampedTwist& sample : odometry)
-		if (Bin* bin = binOf(sample.t_ns)) bin->v_m_s += sample.twist.v_m_s, bin->w_rad_s += sample.twist.w_rad_s, ++bin->odometry_samples;
-	for (Bin& bin : bins)
+	{
+		if (!std::isfinite(sample.twist.v_m_s) || !std::isfinite(sample.twist.w_rad_s)) continue;
+		Bin& bin = binOf(sample.t_ns);
+		bin.v_m_s += sample.twist.v_m_s, bin.w_rad_s += sample.twist.w_rad_s, ++bin.odometry_samples;
+	}
+	for (auto& [number, bin] : bins)
 	{
 		bin.force_B /= std::max<double>(1, static_cast<double>(bin.imu_samples));
 		bin.gyro_B /= std::max<double>(1, static_cast<double>(bin.imu_samples));
@@ -79,26 +85,32 @@ Eigen::Quaterniond fromAxes(const Eigen::Vector3d& forward_B, const Eigen::Vecto
 }
 
 /** Correlation of the odometry's acceleration with the specific force along an axis; nothing where it hardly accelerates. */
-std::optional<double> forwardCorrelation(const std::vector<Bin>& bins, const Eigen::Vector3d& axis_B)
+std::optional<double> forwardCorrelation(const Bins& bins, const Eigen::Vector3d& axis_B)
 {
 	Correlation correlation;
-	for (size_t i = 1; i + 1 < bins.size(); ++i)
-		if (bins[i - 1].odometry_samples > 0 && bins[i].imu_samples > 0 && bins[i + 1].odometry_samples > 0)
-			correlation.add(axis_B.dot(bins[i].force_B), (bins[i + 1].v_m_s - bins[i - 1].v_m_s) / (2 * kBin_s));
+	for (const auto& [number, bin] : bins)
+	{
+		const auto before = bins.find(number - 1), after = bins.find(number + 1);
+		if (bin.imu_samples == 0 || before == bins.end() || after == bins.end()) continue;
+		if (before->second.odometry_samples > 0 && after->second.odometry_samples > 0)
+			correlation.add(axis_B.dot(bin.force_B), (after->second.v_m_s - before->second.v_m_s) / (2 * kBin_s));
+	}
 	if (correlation.varianceOfB() < kMinAcceleration_m_s2 * kMinAcceleration_m_s2) return std::nullopt;
 	return correlation.value();
 }
 }  // namespace
 
-std::optional<ImuAxes> guessImuAxes(const std::vector<ImuSample>& imu, const std::vector<StampedTwist>& odometry)
+std::optional<ImuAxes> guessImuAxes(const std::vector<ImuSample>& samples, const std::vector<StampedTwist>& odometry)
 {
+	std::vector<ImuSample> imu;
+	std::copy_if(samples.begin(), samples.end(), std::back_inserter(imu), isFinite);
 	if (imu.size() < 10) return std::nullopt;
 	ImuAxes axes;
 	for (const ImuSample& sample : imu) axes.mean_force_B_m_s2 += sample.acc_m_s2 / static_cast<double>(imu.size());
 	const Eigen::Vector3d up_B = nearestAxis(axes.mean_force_B_m_s2);
 	axes.tilt_rad = std::acos(std::clamp(up_B.dot(axes.mean_force_B_m_s2.normalized()), -1.0, 1.0));
 
-	const std::vector<Bin> bins = meansOverTime(imu, odometry);
+	const Bins bins = meansOverTime(imu, odometry);
 	// Without a drive that tells: the smallest turn that brings the axis up. Its forward axis is an axis of B again, as up is.
 	const Eigen::Quaterniond smallest = Eigen::Quaterniond::FromTwoVectors(up_B, Eigen::Vector3d::UnitZ());
 	Eigen::Vector3d forward_B = nearestAxis(smallest.conjugate() * Eigen::Vector3d::UnitX());
@@ -113,7 +125,7 @@ std::optional<ImuAxes> guessImuAxes(const std::vector<ImuSample>& imu, const std
 	axes.R_OB = fromAxes(forward_B, up_B);
 
 	Correlation yaw_rate;
-	for (const Bin& bin : bins)
+	for (const auto& [number, bin] : bins)
 		if (bin.imu_samples > 0 && bin.odometry_samples > 0) yaw_rate.add(up_B.dot(bin.gyro_B), bin.w_rad_s);
 	if (yaw_rate.varianceOfB() > 1e-4) axes.yaw_rate_correlation = yaw_rate.value();
 	return axes;

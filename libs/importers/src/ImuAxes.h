@@ -17,6 +17,11 @@ struct StampedTwist
 	WheelTwist twist;
 };
 
+inline bool isFinite(const ImuSample& sample)
+{
+	return sample.acc_m_s2.allFinite() && sample.gyro_rad_s.allFinite();
+}
+
 /** How an IMU of unknown mounting sits on its vehicle. */
 struct ImuAxes
 {
@@ -30,6 +35,7 @@ struct ImuAxes
 };
 
 /** The mounting in steps of 90 degrees: up from the mean specific force, forward from the accelerations of the odometry.
- *  @param imu, odometry in increasing order of time, of level driving. @return nothing for fewer than ten IMU samples. */
+ *  @param imu, odometry in increasing order of time, of level driving; samples that are not finite are skipped.
+ *  @return nothing for fewer than ten IMU samples that are finite. */
 std::optional<ImuAxes> guessImuAxes(const std::vector<ImuSample>& imu, const std::vector<StampedTwist>& odometry);
 }  // namespace viwo

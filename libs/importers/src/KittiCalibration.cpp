@@ -3,6 +3,7 @@
 #include "CsvFile.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 
 #include <cmath>
 #include <filesystem>
@@ -44,7 +45,7 @@ class KittiFile
 		std::vector<double> numbers;
 		for (const std::string& word : splitWords(values_.at(key))) numbers.push_back(parseNumber(word, path_ + ": " + key));
 		if (numbers.size() != count)
-			throw Error(path_ + ": " + key + ": " + std::to_string(numbers.size()) + " numbers instead of " + std::to_string(count));
+			throw Error(path_ + ": " + key + ": " + counted(numbers.size(), "number") + " instead of " + std::to_string(count));
 		return numbers;
 	}
 

@@ -3,6 +3,7 @@
 #include "RawlogAssembler.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/importers/KittiImporter.h>
 
 #include <filesystem>
@@ -17,7 +18,7 @@ constexpr double kImuHeight_m = 0.93;
 
 std::string missingNote(const std::string& what, size_t missing, size_t found)
 {
-	return std::to_string(missing) + " of " + std::to_string(missing + found) + " " + what + " are not there and were left out";
+	return "left out, as not there: " + std::to_string(missing) + " of " + counted(missing + found, what);
 }
 
 void readImages(const std::string& folder, Recording& recording, std::vector<std::string>& notes)
@@ -25,7 +26,7 @@ void readImages(const std::string& folder, Recording& recording, std::vector<std
 	size_t missing = 0;
 	for (KittiFrame& frame : readKittiFrames(folder + "/image_00", "png", missing))
 		recording.images.push_back({frame.t_ns, std::move(frame.path)});
-	if (missing > 0) notes.push_back(missingNote("images", missing, recording.images.size()));
+	if (missing > 0) notes.push_back(missingNote("image", missing, recording.images.size()));
 }
 
 void readOxts(const std::string& folder, const KittiOptions& options, Recording& recording, std::vector<std::string>& notes)
@@ -33,7 +34,7 @@ void readOxts(const std::string& folder, const KittiOptions& options, Recording&
 	size_t missing = 0;
 	std::vector<OxtsPacket> packets;
 	for (const KittiFrame& frame : readKittiFrames(folder + "/oxts", "txt", missing)) packets.push_back(readOxtsPacket(frame));
-	if (missing > 0) notes.push_back(missingNote("OXTS packets", missing, packets.size()));
+	if (missing > 0) notes.push_back(missingNote("OXTS packet", missing, packets.size()));
 
 	std::mt19937_64 random(options.seed);
 	std::normal_distribution<double> normal;

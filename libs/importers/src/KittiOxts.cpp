@@ -3,6 +3,7 @@
 #include "CsvFile.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
@@ -80,7 +81,7 @@ OxtsPacket readOxtsPacket(const KittiFrame& frame)
 	if (!file || !std::getline(file, line)) throw Error(frame.path + ": cannot be read, or it is empty");
 	const auto words = splitWords(line);
 	if (words.size() < kOxtsFields)
-		throw Error(frame.path + ":1: " + std::to_string(words.size()) + " numbers instead of at least " + std::to_string(kOxtsFields) +
+		throw Error(frame.path + ":1: " + counted(words.size(), "number") + " instead of at least " + std::to_string(kOxtsFields) +
 		            " (lat lon alt ... wu)");
 	double v[kOxtsFields];
 	for (size_t i = 0; i < kOxtsFields; ++i) v[i] = parseNumber(words[i], frame.path + ":1");

@@ -3,9 +3,11 @@
 #include "KittiOxts.h"
 #include "RosBagHeader.h"
 #include "StreamStatistics.h"
+#include "TextLines.h"
 
 #include <mrpt/obs/CObservationImage.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/importers/RecordingInfo.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
@@ -63,9 +65,8 @@ RecordingInfo inspectRawlog(const std::string& path, const std::function<bool(do
 	{
 		for (StreamInfo& stream : info.streams)
 			if (stream.name == key.first && stream.type == key.second) stream.backwards += sensor.late;
-		if (sensor.missing_images > 0)
-			info.notes.push_back(key.first + ": " + std::to_string(sensor.missing_images) + " image files are missing");
-		if (sensor.unstamped > 0) info.notes.push_back(key.first + ": " + std::to_string(sensor.unstamped) + " have no stamp");
+		if (sensor.missing_images > 0) info.notes.push_back(key.first + ": missing: " + counted(sensor.missing_images, "image file"));
+		if (sensor.unstamped > 0) info.notes.push_back(key.first + ": without a stamp: " + counted(sensor.unstamped, "observation"));
 	}
 	return info;
 }
@@ -86,9 +87,20 @@ bool isRawlog(const fs::path& path)
 	}
 }
 
+/** Of all kinds the one that has no mark at its beginning, and so the last. */
+CarmenLog readLogOfLastKind(const std::string& path)
+try
+{
+	return readCarmenLog(path);
+}
+catch (const OtherFormat&)
+{
+	throw Error(path + ": is none of these: a rawlog, a ROS bag, a CARMEN log, a folder of EuRoC's or of KITTI's layout");
+}
+
 RecordingInfo inspectCarmen(const std::string& path)
 {
-	const CarmenLog log = readCarmenLog(path);
+	const CarmenLog log = readLogOfLastKind(path);
 	StreamStatistics statistics;
 	for (const CarmenScan& scan : log.scans)
 	{
@@ -129,7 +141,7 @@ RecordingInfo inspectKitti(const fs::path& root)
 		statistics.add("oxts", "pose", SensorRole::truth, frame.t_ns);
 	}
 	RecordingInfo info{root.string(), "KITTI drive", statistics.finish(), {}};
-	if (missing_images > 0) info.notes.push_back(std::to_string(missing_images) + " images of timestamps.txt are missing");
+	if (missing_images > 0) info.notes.push_back("missing: " + counted(missing_images, "image") + " of timestamps.txt");
 	return info;
 }
 

@@ -37,6 +37,22 @@ void checkPose(const TopicMapping& mapping, const std::string& where)
 		throw Error(where + "give both position_m and yaw_pitch_roll_deg, or none of them");
 }
 
+/** What would not count is refused, as it was meant to. */
+void checkUse(const TopicMapping& mapping, const std::string& type, const std::string& where)
+{
+	const bool is_joints = type == "sensor_msgs/JointState";
+	const bool has_joints =
+	    !mapping.left_joints.empty() || !mapping.right_joints.empty() || mapping.wheel_radius_m != 0 || mapping.track_m != 0;
+	if (has_joints && !is_joints)
+		throw Error(where + "left_joints, right_joints, wheel_radius_m and track_m are of a JointState, and " + mapping.topic + " is a " +
+		            type + "; leave them out");
+	if (!mapping.camera_info.empty() && !isImageType(type))
+		throw Error(where + "camera_info is of pictures, and " + mapping.topic + " is a " + type + "; leave it out");
+	if (!mapping.position_m.empty() && isOdometryType(type))
+		throw Error(where + "position_m and yaw_pitch_roll_deg are of a sensor, and " + mapping.topic + " has the motion of O itself (" +
+		            type + "); leave them out");
+}
+
 void checkMapping(const TopicMapping& mapping, const std::vector<RosTopic>& topics, const std::string& where)
 {
 	if (mapping.topic.empty()) throw Error(where + "topic: is missing");
@@ -48,6 +64,7 @@ void checkMapping(const TopicMapping& mapping, const std::vector<RosTopic>& topi
 		const RosTopic& info = requireTopic(topics, mapping.camera_info, where + "camera_info");
 		if (info.type != "sensor_msgs/CameraInfo") throw Error(where + "camera_info = " + info.name + ": is a " + info.type);
 	}
+	checkUse(mapping, topic.type, where);
 	if (topic.type != "sensor_msgs/JointState") return;
 	if (mapping.left_joints.empty() || mapping.right_joints.empty() || mapping.wheel_radius_m <= 0 || mapping.track_m <= 0)
 		throw Error(where + "JointState needs left_joints, right_joints, wheel_radius_m and track_m");

@@ -22,7 +22,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 void appendText(const std::string& path, const char* begin, int bytes, std::string& text)
 {
 	const auto size = static_cast<size_t>(bytes);
-	if (std::memchr(begin, 0, size) != nullptr) throw Error(path + ": is not text; give a log, or one packed by gzip or bzip2");
+	if (std::memchr(begin, 0, size) != nullptr) throw OtherFormat(path + ": is not text; give a log, or one packed by gzip or bzip2");
 	text.append(begin, size);
 }
 

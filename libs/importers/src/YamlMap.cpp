@@ -1,6 +1,7 @@
 #include "YamlMap.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 
 #include <algorithm>
 #include <array>
@@ -75,7 +76,7 @@ std::vector<double> YamlMap::numbers(const std::string& key, const YAML::Node& n
 		values.push_back(value);
 	}
 	if (values.size() < min_count || values.size() > max_count)
-		fail(key, std::to_string(values.size()) + " numbers instead of " + std::to_string(min_count));
+		fail(key, counted(values.size(), "number") + " instead of " + std::to_string(min_count));
 	return values;
 }
 

@@ -10,6 +10,9 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "MountingCheck.h"
 
@@ -39,6 +42,35 @@ struct Sensor
 	bool missing() const { return needed && count == 0; }
 };
 
+/** Nothing for an empty or damaged log, which is told in its turn. */
+std::optional<int64_t> firstStamp_ns(RawlogReader reader)
+try
+{
+	const auto first = reader.next();
+	return first ? std::optional(nanosecondsOf(first->timestamp)) : std::nullopt;
+}
+catch (const Error&)
+{
+	return std::nullopt;
+}
+
+/** The reader finds it, too, but not before it has come to the end of a log. */
+void requireOrderOfTime(const std::vector<std::string>& rawlogs, const RawlogReaderOptions& options)
+{
+	for (size_t i = 1; i < rawlogs.size(); ++i)
+	{
+		const std::string &path = rawlogs[i], &path_before = rawlogs[i - 1];
+		std::error_code ignored;
+		const auto isFile = [&](const std::string& p) { return std::filesystem::is_regular_file(p, ignored); };
+		if (!isFile(path) || !isFile(path_before)) continue;  // a pipe is read in its turn
+		const auto first_ns = firstStamp_ns(RawlogReader(path, options)), before_ns = firstStamp_ns(RawlogReader(path_before, options));
+		if (!first_ns || !before_ns || *first_ns >= *before_ns) continue;
+		char text[64];
+		std::snprintf(text, sizeof text, ": begins %.1f s before ", secondsBetween(*first_ns, *before_ns));
+		throw Error(path + text + path_before + "; give the rawlogs of one run in the order of their time");
+	}
+}
+
 class Look
 {
    public:
@@ -59,6 +91,7 @@ class Look
 		reader_options.skip_missing_images = true;
 		reader_options.rig = options_.rig;
 		RawlogReader reader(options_.rawlogs, reader_options);
+		requireOrderOfTime(options_.rawlogs, reader_options);
 		const bool reached_end = !scan(reader);
 		if (interrupted_ && interrupted_()) return;
 		requireOneClock(reader.counts());

@@ -1,4 +1,5 @@
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/core/Time.h>
 #include <viwo/odometry/Odometry.h>
 #include <viwo/odometry/OdometryRun.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -100,6 +102,7 @@ class Run
 			const int64_t t_ns = nanosecondsOf(observation->timestamp);
 			if (!first_ns_) first_ns_ = t_ns;
 			const double t_s = secondsBetween(*first_ns_, t_ns);
+			read_s_ = std::max(read_s_, t_s);
 			if (t_s < options_.from_s) continue;
 			if (t_s > options_.to_s) break;
 			if (const auto remark = clock_.waitFor(t_s - options_.from_s, [this] { return interrupted(); })) tell(t_s, *remark);
@@ -240,10 +243,25 @@ class Run
 		const std::string where = rawlogNames(options_.rawlogs) + ": no pose: ";
 		if (result_.interrupted) return where + "interrupted before the first";
 		if (const std::string left_out = leftOut(); !left_out.empty()) return where + "too much had to be left out (" + left_out + ")";
-		if (result_.frames == 0) return where + "no frame was processed; in the log: " + reader_.counts().describe();
-		return where + "the estimator is still " + toString(odometry_.status()) + " after " + std::to_string(result_.frames) + " frames" +
+		if (result_.frames == 0) return where + noFrame();
+		return where + "the estimator is still " + toString(odometry_.status()) + " after " +
+		       counted(static_cast<size_t>(result_.frames), "frame") +
 		       (options_.odometry.estimator.mode == Mode::vio ? "; mode vio needs motion with parallax and acceleration"
 		                                                      : "; see summary.json");
+	}
+
+	std::string noFrame() const
+	{
+		if (options_.from_s <= 0 && !std::isfinite(options_.to_s))
+			return "no frame was processed; in the log: " + reader_.counts().describe();
+		char text[160];
+		if (options_.from_s > read_s_)
+			std::snprintf(text, sizeof text, "--from %g s is behind the end of the log, which has %.1f s", options_.from_s, read_s_);
+		else if (read_s_ > options_.to_s)
+			std::snprintf(text, sizeof text, "no frame between --from %g and --to %g s of the log", options_.from_s, options_.to_s);
+		else
+			std::snprintf(text, sizeof text, "no frame behind --from %g s of the log, which has %.1f s", options_.from_s, read_s_);
+		return text;
 	}
 
 	const OdometryRunOptions& options_;
@@ -257,6 +275,7 @@ class Run
 	GapLog gaps_{options_.odometry};
 	ReplayClock clock_{options_.replay_speed};
 	std::optional<int64_t> first_ns_;
+	double read_s_ = 0;  //!< of the log, used or not
 	int64_t last_ns_ = 0, last_frame_ns_ = 0;
 	size_t told_ = 0;
 };

@@ -4,6 +4,8 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "GzipArchive.h"
 
@@ -15,7 +17,17 @@ struct RawlogWriter::Impl
 {
 	explicit Impl(const std::string& path) : path(path), file(path), archive(file.stream()) {}
 
+	~Impl()
+	{
+		if (closed) return;
+		std::error_code ignored;
+		for (const std::string& image : new_images) fs::remove(image, ignored);
+		if (made_folder) fs::remove(images_folder, ignored);  // not while it holds anything
+	}
+
 	std::string path, images_folder;
+	bool made_folder = false, closed = false;
+	std::vector<std::string> new_images;
 	AtomicFile file;
 	GzipArchiveWriter archive;
 };
@@ -32,6 +44,7 @@ void RawlogWriter::close()
 {
 	impl_->archive.finish();
 	impl_->file.commit();
+	impl_->closed = true;
 }
 
 const std::string& RawlogWriter::imagesFolder()
@@ -41,7 +54,7 @@ const std::string& RawlogWriter::imagesFolder()
 		const fs::path rawlog(impl_->path);
 		const std::string folder = (rawlog.parent_path() / (rawlog.stem().string() + "_Images")).string();
 		std::error_code error;
-		fs::create_directories(folder, error);
+		impl_->made_folder = fs::create_directories(folder, error);
 		if (error) throw Error(folder + ": cannot create this folder: " + error.message());
 		impl_->images_folder = folder;
 	}
@@ -55,6 +68,9 @@ std::string RawlogWriter::imageName(const std::string& label, int64_t t_ns, cons
 
 std::string RawlogWriter::imagePath(const std::string& label, int64_t t_ns, const std::string& extension)
 {
-	return imagesFolder() + "/" + imageName(label, t_ns, extension);
+	const std::string image = imagesFolder() + "/" + imageName(label, t_ns, extension);
+	std::error_code ignored;
+	if (!fs::exists(fs::symlink_status(image, ignored))) impl_->new_images.push_back(image);
+	return image;
 }
 }  // namespace viwo

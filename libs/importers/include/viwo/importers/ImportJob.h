@@ -21,8 +21,10 @@ struct ImportResult
 {
 	size_t images = 0, imu_samples = 0, odometry_samples = 0, scans = 0, ground_truth_poses = 0;
 	size_t gps_fixes = 0, point_clouds = 0;
-	double duration_s = 0;           //!< first to last observation
-	std::string ground_truth_path;   //!< empty without a ground truth
+	double duration_s = 0;          //!< first to last observation
+	std::string ground_truth_path;  //!< empty without a ground truth
+	/** Whether nothing says whose poses the truth has, or where O is from there, so that they were taken for those of O. */
+	bool ground_truth_assumed = false;
 	std::string gps_path;            //!< TUM file of the antenna's positions, east-north-up of the first; empty without GPS
 	std::string stamps_path;         //!< rawlog stamps against original ones; empty where they are the same
 	std::string mapping;             //!< which topic became what, as an INI that can be edited and given back; ROS bags only

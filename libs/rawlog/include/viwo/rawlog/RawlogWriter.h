@@ -26,7 +26,8 @@ class RawlogWriter
    public:
 	/** @throws Error when the folder does not exist or cannot be written. */
 	explicit RawlogWriter(const std::string& path);
-	/** Without close() no rawlog appears; images that were written stay. */
+	/** Without close() no rawlog appears; files that imagePath() named and that were not there before are removed again, and so is their
+	 * folder if it was made for them. */
 	~RawlogWriter();
 
 	void write(const mrpt::obs::CObservation& observation);
