@@ -14,7 +14,7 @@ constexpr const char* kStyle = R"(
 @media (prefers-color-scheme: dark) { :root { --paper: #16181b; --ink: #e8eaed; --muted: #a4a9af; --grid: #33373c; --reference: #80868b; --band: #1f2226;
   --c1: #5ab4f0; --c2: #ff8a4c; --c3: #3fcf9f; --c4: #e79cc8; --c5: #f0bc4a; --c6: #8cd0f5; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; padding: 1rem; max-width: 76rem; background: var(--paper); color: var(--ink); font: 16px/1.5 Helvetica, Arial, sans-serif; }
+body { margin: 0 auto; padding: 1rem; max-width: 76rem; background: var(--paper); color: var(--ink); font: 16px/1.5 Helvetica, Arial, sans-serif; overflow-wrap: break-word; }
 h1 { font-size: 1.6rem; margin: 0.5rem 0; }
 h2 { font-size: 1.25rem; margin: 2rem 0 0.5rem; border-bottom: 1px solid var(--grid); }
 h3 { font-size: 1rem; margin: 1.5rem 0 0.5rem; }
