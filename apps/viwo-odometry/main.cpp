@@ -1,4 +1,5 @@
 #include <viwo/app/Program.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/odometry/OdometryRun.h>
 
 #include <algorithm>
@@ -60,8 +61,9 @@ void declare(CLI::App& cli, Arguments& a)
 
 void printResult(const OdometryRunOptions& run, const OdometryRunResult& r)
 {
-	std::printf("%d poses of %d frames, %.1f s, path %.3f m, status %s, %.1f x real time\n", r.poses, r.frames, r.duration_s,
-	            r.path_length_m, r.final_status.c_str(), r.wall_time_s > 0 ? r.duration_s / r.wall_time_s : 0.0);
+	std::printf("%s of %s, %.1f s, path %.3f m, status %s, %.1f x real time\n", counted(static_cast<size_t>(r.poses), "pose").c_str(),
+	            counted(static_cast<size_t>(r.frames), "frame").c_str(), r.duration_s, r.path_length_m, r.final_status.c_str(),
+	            r.wall_time_s > 0 ? r.duration_s / r.wall_time_s : 0.0);
 	if (run.replay_speed > 0) std::printf("replay by the log's clock, at most %.1f s behind, nothing dropped\n", r.largest_lag_s);
 	std::printf("%s\n%s\n", (run.output_dir + "/trajectory.tum").c_str(), r.summary_path.c_str());
 }

@@ -78,5 +78,5 @@ TEST(TextRows, SaysWhichLineIsWrong)
 	expectError([&] { CsvTable(folder.file("t"), {"a"}); }, {"names the columns"});
 	writeFile(folder.file("t"), "a,b\n1\n");
 	CsvTable table(folder.file("t"), {"b"});
-	expectError([&] { table.next(); }, {"t:2", "1 cells"});
+	expectError([&] { table.next(); }, {"t:2", "1 cell in"});
 }

@@ -1,5 +1,6 @@
 #include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 
 #include <algorithm>
 
@@ -21,7 +22,7 @@ bool CsvTable::next()
 {
 	if (!rows_.next()) return false;
 	for (const size_t place : places_)
-		if (place >= rows_.words().size()) fail("only " + std::to_string(rows_.words().size()) + " cells in this row");
+		if (place >= rows_.words().size()) fail("only " + counted(rows_.words().size(), "cell") + " in this row");
 	return true;
 }
 }  // namespace viwo

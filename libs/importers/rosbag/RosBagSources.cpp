@@ -167,6 +167,13 @@ void RosBagSources::placeTruth()
 	                 "; the ground truth takes them for poses of O: what lies between the two will look like an error of an estimate");
 }
 
+std::string RosBagSources::whyNotPlaced(const RosSource& source) const
+{
+	if (base_frame_.empty()) return "the vehicle's frame is not known (no base_frame)";
+	if (source.frame.empty()) return "its messages name no frame";
+	return "tf has no frame '" + source.frame + "' under '" + base_frame_ + "'";
+}
+
 void RosBagSources::place(RosSource& source)
 {
 	if (!needsPose(source.type)) return;
@@ -185,7 +192,7 @@ void RosBagSources::place(RosSource& source)
 	}
 	if (isImageType(source.type)) source.T_OS.R = forwardOpticalAxes();
 	if (source.type == "sensor_msgs/Imu") return;  // gravity will tell
-	notes_.push_back(label + ": tf has no frame '" + source.frame + "' under '" + base_frame_ + "'; assumed " +
+	notes_.push_back(label + ": " + whyNotPlaced(source) + "; assumed " +
 	                 (isImageType(source.type) ? "in O, looking forward" : "in O, with O's axes") +
 	                 ": give position_m and yaw_pitch_roll_deg in a --map");
 }
@@ -246,7 +253,7 @@ void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 	char text[300];
 	std::snprintf(text, sizeof text, "specific force (%.2f, %.2f, %.2f) m/s^2, %.1f deg from an axis; ", axes->mean_force_B_m_s2.x(),
 	              axes->mean_force_B_m_s2.y(), axes->mean_force_B_m_s2.z(), axes->tilt_rad / kDegree);
-	std::string note = source.mapping.label + ": tf has no frame '" + source.frame + "' under '" + base_frame_ + "'; by its mean " + text;
+	std::string note = source.mapping.label + ": " + whyNotPlaced(source) + "; by its mean " + text;
 	if (axes->forward_correlation)
 		std::snprintf(text, sizeof text, "forward by the odometry's accelerations (correlation %.2f)", *axes->forward_correlation);
 	else

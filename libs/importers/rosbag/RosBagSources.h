@@ -54,6 +54,7 @@ class RosBagSources
 	void requireBaseFrame() const;
 	bool allPlaced() const;
 	void placeTruth();
+	std::string whyNotPlaced(const RosSource& source) const;
 	void place(RosSource& source);
 	void readCamera(RosSource& source);
 	void placeByGravity(RosSource& source, bool record_time);

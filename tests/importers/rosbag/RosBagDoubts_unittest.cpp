@@ -85,6 +85,7 @@ TEST_F(RosBagDoubts, ValuesThatAreNotFiniteDoNotTurnTheImu)
 	drive.write(path("x.bag"));
 	const ImportResult result = import();
 	EXPECT_NEAR(importedImuPose().R.angularDistance(drive.R_OB), 0, 1e-7);
+	EXPECT_TRUE(isNote(result, "IMU: tf has no frame 'imu_link' under 'base_link'; by its mean specific force"));
 	EXPECT_TRUE(isNote(result, "forward by the odometry's accelerations"));
 	EXPECT_TRUE(isNote(result, "IMU: not finite: 3 of 1000 samples"));
 	for (const std::string& note : result.notes) EXPECT_EQ(note.find("nan"), std::string::npos) << note;

@@ -85,7 +85,7 @@ TEST_F(RosBag, PointClouds)
 	}
 	const ImportResult result = import();
 	EXPECT_EQ(result.point_clouds, 1u);
-	EXPECT_TRUE(isNote(result, "POINTS: tf has no frame 'velodyne'"));
+	EXPECT_TRUE(isNote(result, "POINTS: the vehicle's frame is not known"));
 	const auto clouds = observationsOf<mrpt::obs::CObservationPointCloud>(path("x.rawlog"), "POINTS");
 	ASSERT_EQ(clouds.size(), 1u);
 	EXPECT_EQ(stampOf(*clouds[0]), at_ns(7));
