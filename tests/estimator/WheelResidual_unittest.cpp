@@ -1,6 +1,7 @@
 #include <residuals/WheelResidual.h>
 
 #include <ConstantTwist.h>
+#include <CovarianceComparison.h>
 #include <NumericJacobian.h>
 
 namespace viwo
@@ -70,6 +71,45 @@ TEST(WheelResidual, WhitensWithTheInflatedCovariance)
 	const double error = (9 * W * preintegration.covariance() * W.transpose() - WheelResidual::Whitening::Identity()).norm();
 	std::cout << "[measured] WheelResidual: whitened covariance off identity by " << error << "\n";
 	EXPECT_LT(error, 1e-10);
+}
+
+/** Many intervals between known poses: what their noise does to the size of the wheels must cancel out. */
+TEST(WheelResidual, NoiseOfTheWheelsPullsTheirSizeNowhere)
+{
+	test::Random random(116);
+	test::ConstantTwist motion = makeMotion(random);
+	motion.v_m_s = 0.015;
+	motion.w_rad_s = 0.01;
+	WheelNoise noise;
+	noise.s0_m_s_sqrtHz = 0.003;  // so much that an interval says little of the size, and its noise a lot
+	const auto wheels = motion.wheels;
+	const double left = (motion.v_m_s - 0.5 * wheels.track_m * motion.w_rad_s) / wheels.k_left;
+	const double right = (motion.v_m_s + 0.5 * wheels.track_m * motion.w_rad_s) / wheels.k_right, dt_s = 0.1;
+	const auto deviation = [&](double v_m_s) { return std::hypot(noise.s0_m_s_sqrtHz, noise.k_sqrtHz * v_m_s) / std::sqrt(dt_s); };
+	const test::Blocks x = statesOf(motion, 0, dt_s);
+	const double* const states[] = {x[0].data(), x[1].data(), x[2].data()};
+	Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
+	const int draws = test::monteCarloDraws(40000);
+	for (int i = 0; i < draws; ++i)
+	{
+		WheelPreintegration preintegration(noise, wheels);
+		const Eigen::VectorXd e = random.vector(2, 1);
+		preintegration.integrate({dt_s, left + e[0] * deviation(left), right + e[1] * deviation(right)});
+		const WheelResidual cost(preintegration, motion.T_BO);
+		Eigen::Matrix<double, 6, 1> r;
+		Eigen::Matrix<double, 6, 3, Eigen::RowMajor> J;
+		double* jacobians[] = {nullptr, nullptr, J.data()};
+		ASSERT_TRUE(cost.evaluateLocal(states, r.data(), jacobians));
+		const Eigen::Vector3d pull = J.transpose() * r;
+		sum += pull;
+		squares += pull.cwiseAbs2();
+	}
+	const Eigen::Vector3d mean = sum / draws, deviations = (squares / draws - mean.cwiseAbs2()).cwiseSqrt() / std::sqrt(draws);
+	for (int i = 0; i < 3; ++i)
+	{
+		std::cout << "[measured] pull of an interval's noise on intrinsic " << i << ": " << mean[i] << " +- " << deviations[i] << "\n";
+		EXPECT_LT(std::abs(mean[i]), 4 * deviations[i]);
+	}
 }
 
 TEST(WheelResidual, Jacobians)

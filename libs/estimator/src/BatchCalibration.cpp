@@ -6,6 +6,7 @@
 #include "calibration/BatchQuality.h"
 #include "calibration/BatchSolver.h"
 #include "calibration/BatchStart.h"
+#include "calibration/RigPriors.h"
 #include "residuals/BlockAlgebra.h"
 
 #include <viwo/core/Scalars.h>
@@ -21,8 +22,11 @@ namespace viwo
 {
 namespace
 {
-/** A parameter whose deviation stays above this share of what it was beforehand has not been observed. */
-constexpr double kObservedShare = 0.5;
+/** A parameter whose deviation stays above this share of what it was beforehand has not been observed, and is held where it was; below the
+ * lesser share it is let go again. */
+constexpr double kObservedShare = 0.5, kReleasedShare = 0.4;
+/** From this round on the images are weighed as they deserve, and it can be told what is observed. */
+constexpr int kFirstFineRound = 2;
 /** Rounds end once nothing moves by more than this, in its own deviations, and the noise by no more than this share. */
 constexpr double kSettled = 0.2, kSettledNoise = 0.05;
 /** Of six rows in deviations: a wheel interval beyond this is not noise. Looked at from the first round on, before slip passes for noise.
@@ -51,6 +55,8 @@ class BatchRun
 	void run()
 	{
 		slipping_.assign(s_.frames.size(), false);
+		held_.setConstant(false);
+		result_.prior_deviations = priorDeviations(options_, in_.start);
 		result_.keyframes = static_cast<int>(s_.frames.size());
 		trust_.pixel_sigma_px = kCoarseSigma_px;
 		trust_.outlier_px = kCoarseOutlier_px;
@@ -61,12 +67,14 @@ class BatchRun
 		for (int round = 1; round <= options_.max_rounds; ++round)
 		{
 			trust_.outlier_px = round == 1 ? kCoarseOutlier_px : estimator_.window.outlier_px;
-			if (round == 2) trust_.pixel_sigma_px = estimator_.noise.pixel_sigma_px;
+			if (round == kFirstFineRound) trust_.pixel_sigma_px = estimator_.noise.pixel_sigma_px;
 			const SensorRig before = s_.rig();
 			if (!solve({}, round)) return;
 			result_.rounds = round;
 			if (!assess()) return;
-			if (round > 2 && settled(before)) break;
+			const bool same_unknowns = round >= kFirstFineRound && !holdUnobserved();
+			settled_ = round > kFirstFineRound && same_unknowns && settled(before);
+			if (settled_) break;
 		}
 		judge();
 	}
@@ -81,20 +89,27 @@ class BatchRun
 			return false;
 		}
 		cutIntervals(samples_, estimator_, wheel_noise_ratio_, s_);
-		factors_ = collectBatch(in_, options_, estimator_, trust_, slipping_, s_, landmarks_);
+		measurements_ = collectBatch(in_, options_, estimator_, trust_, slipping_, s_, landmarks_);
 		if (!enoughImages()) return false;
-		if (solveBatch(factors_, landmarks_, fixed, kIterations) && plausible()) return true;
+		if (solveBatch(withRigPriors(held_), landmarks_, fixed, kIterations) && plausible()) return true;
 		result_.problem =
 		    "the calibration diverges: the start may be too far off (mountings within some degrees and centimetres, wheels within some "
 		    "percent, clocks within some hundredths of a second), or image, IMU and wheels are not of the same drive";
 		return false;
 	}
 
+	std::vector<BatchFactor> withRigPriors(const RigFlags& held)
+	{
+		std::vector<BatchFactor> all = measurements_;
+		for (BatchFactor& f : rigPriors(in_.start, options_, held, s_)) all.push_back(std::move(f));
+		return all;
+	}
+
 	bool enoughImages()
 	{
 		constexpr double kFewest = 10;  // sightings a key frame
 		size_t sightings = 0;
-		for (const BatchFactor& f : factors_)
+		for (const BatchFactor& f : measurements_)
 			if (f.group == BatchGroup::image) ++sightings;
 		if (static_cast<double>(sightings) >= kFewest * static_cast<double>(s_.frames.size())) return true;
 		char text[200];
@@ -114,16 +129,17 @@ class BatchRun
 		       std::all_of(s_.frames.begin(), s_.frames.end(), [](const Frame& f) { return poseFromBlock(f.pose.data()).p.allFinite(); });
 	}
 
-	/** Deviations, noise and slip at the present states. */
+	/** Deviations, noise and slip at the present states. What is held is as uncertain as it was, and makes others so. */
 	bool assess()
 	{
+		const std::vector<BatchFactor> factors = withRigPriors(RigFlags::Constant(false));
 		BatchInformation information;
-		if (!information.compute(factors_))
+		if (!information.compute(factors))
 		{
 			result_.problem = "the equations are singular: the log has too little motion; drive starts, stops and turns to both sides";
 			return false;
 		}
-		setDeviations(information);
+		setDeviations(factors, information);
 		const double images = information.varianceFactor(
 		    BatchGroup::image, [](int) { return true; }, false);
 		// Forward travel and yaw are the encoders' noise; the other rows are the floor's.
@@ -141,6 +157,7 @@ class BatchRun
 
 	void findSlip()
 	{
+		slip_changed_ = false;
 		for (size_t i = 1; i < s_.frames.size(); ++i)
 		{
 			const Frame &a = s_.frames[i - 1], &b = s_.frames[i];
@@ -149,35 +166,46 @@ class BatchRun
 			                     s_.wheel_offset_s.data()};
 			Eigen::Matrix<double, 6, 1> r;
 			b.wheel_factor->evaluateLocal(x, r.data(), nullptr);
-			slipping_[i] = r.squaredNorm() > kSlipSquare;
+			const bool slips = r.squaredNorm() > kSlipSquare;
+			slip_changed_ = slip_changed_ || slips != slipping_[i];
+			slipping_[i] = slips;
 		}
 	}
 
-	void setDeviations(const BatchInformation& information)
+	/** @return whether other parameters are held than before. */
+	bool holdUnobserved()
+	{
+		const RigFlags before = held_;
+		for (int i = 0; i < RigOrder::size; ++i)
+			held_[i] = !(result_.deviations[i] < (held_[i] ? kReleasedShare : kObservedShare) * result_.prior_deviations[i]);
+		return held_ != before;
+	}
+
+	void setDeviations(const std::vector<BatchFactor>& factors, const BatchInformation& information)
 	{
 		const BatchInformation::Deviations found = information.deviations(
-		    factors_, trust_, {s_.wheels.data(), s_.T_BO.data(), s_.T_BC.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()},
-		    rigJacobian(s_.rig()), stretches());
+		    factors, trust_, {s_.wheels.data(), s_.T_BO.data(), s_.T_BC.data(), s_.camera_offset_s.data(), s_.wheel_offset_s.data()},
+		    rigJacobian(s_.rig()), stretches(factors));
 		result_.deviations = found.sigma;
 		track_factor_ = std::clamp(found.track_factor, 1.0, kLargestTrackFactor);
 	}
 
 	/** In which stretch of time each factor's second frame lies. */
-	std::vector<int> stretches() const
+	std::vector<int> stretches(const std::vector<BatchFactor>& factors) const
 	{
 		constexpr double kStretch_s = 2;
 		std::map<const double*, int> of_frame;
 		for (const Frame& f : s_.frames)
 			of_frame[f.pose.data()] = static_cast<int>(secondsBetween(s_.frames.front().t_ns, f.t_ns) / kStretch_s);
 		std::vector<int> result;
-		for (const BatchFactor& f : factors_) result.push_back(f.group == BatchGroup::image ? of_frame.at(f.factor.blocks[1]) : 0);
+		for (const BatchFactor& f : factors) result.push_back(f.group == BatchGroup::image ? of_frame.at(f.factor.blocks[1]) : 0);
 		return result;
 	}
 
 	bool settled(const SensorRig& before) const
 	{
 		const RigVector moved = rigDifference(s_.rig(), before).cwiseQuotient(result_.deviations);
-		return moved.cwiseAbs().maxCoeff() < kSettled && noise_change_ < kSettledNoise;
+		return moved.cwiseAbs().maxCoeff() < kSettled && noise_change_ < kSettledNoise && !slip_changed_;
 	}
 
 	void alignReference()
@@ -209,8 +237,8 @@ class BatchRun
 		result_.wheel_noise_ratio = wheel_noise_ratio_;
 		for (size_t i = 1; i < s_.frames.size(); ++i)
 			if (slipping_[i]) result_.slip_s += secondsBetween(s_.frames[i - 1].t_ns, s_.frames[i].t_ns);
-		setPriorDeviations();
 		keepUnobserved();
+		addNotes();
 		const double duration_s = secondsBetween(s_.frames.front().t_ns, s_.frames.back().t_ns);
 		if (result_.slip_s <= options_.slip_share * duration_s) return;
 		const auto first = static_cast<size_t>(std::find(slipping_.begin(), slipping_.end(), true) - slipping_.begin());
@@ -223,24 +251,43 @@ class BatchRun
 		result_.problem = text;
 	}
 
-	/** What was not observed stays what it was. */
+	/** What was not observed stays what it was, to the last digit. */
 	void keepUnobserved()
 	{
 		RigVector moved = rigDifference(s_.rig(), in_.start);
 		for (int i = 0; i < RigOrder::size; ++i)
 		{
-			result_.observed[i] = result_.deviations[i] < kObservedShare * result_.prior_deviations[i];
-			if (!result_.observed[i]) moved[i] = 0;
+			result_.observed[i] = !held_[i];
+			if (held_[i]) moved[i] = 0;
 		}
 		result_.rig = rigPlus(in_.start, moved);
 	}
 
-	void setPriorDeviations()
+	void addNotes()
 	{
-		const double turn = options_.rotation_deg * kDegree, lever = options_.lever_m, offset = options_.time_offset_s;
-		result_.prior_deviations << options_.wheel_scale, options_.wheel_scale, options_.track_relative * in_.start.wheels.track_m,
-		    Eigen::Matrix<double, 6, 1>(lever, lever, 0, turn, turn, turn), Eigen::Vector3d::Constant(lever),
-		    Eigen::Vector3d::Constant(turn), offset, offset;
+		const auto note = [&](const char* format, auto... values)
+		{
+			char text[300];
+			std::snprintf(text, sizeof text, format, values...);
+			result_.notes.emplace_back(text);
+		};
+		constexpr double kFar = 3;
+		const RigVector moved = rigDifference(result_.rig, in_.start);
+		for (int i = 0; i < RigOrder::size; ++i)
+			if (result_.observed[i] && std::abs(moved[i]) > kFar * result_.prior_deviations[i])
+				note(
+				    "%s is %.1f times as far from the start as [calibration] expects: check it by hand, and the lens, whose errors it "
+				    "takes up",
+				    RigOrder::names()[static_cast<size_t>(i)].c_str(), std::abs(moved[i]) / result_.prior_deviations[i]);
+		constexpr double kBlurred_px = 0.8;
+		if (result_.pixel_sigma_px > kBlurred_px)
+			note("corners are off by %.2f px, usual is 0.3 to 0.5: lens calibration, mounting of the camera or its resolution may be wrong",
+			     result_.pixel_sigma_px);
+		constexpr double kNoisy = 3;
+		if (result_.wheel_noise_ratio > kNoisy)
+			note("the wheels are %.1f times as noisy as [noise] says: they slip, or IMU and camera are mounted otherwise than was found",
+			     result_.wheel_noise_ratio);
+		if (!settled_) note("it has not settled in %d rounds: the deviations may be too small; raise max_rounds", result_.rounds);
 	}
 
 	static constexpr double kCoarseSigma_px = 3, kCoarseOutlier_px = 30, kLeastSigma_px = 0.05, kLargestTrackFactor = 25;
@@ -252,7 +299,9 @@ class BatchRun
 	BatchSamples samples_;
 	BatchStates s_;
 	LandmarkMap landmarks_;
-	std::vector<BatchFactor> factors_;
+	std::vector<BatchFactor> measurements_;
+	RigFlags held_ = RigFlags::Constant(false);
+	bool settled_ = false, slip_changed_ = false;
 	std::vector<bool> slipping_;
 	BatchTrust trust_;
 	double wheel_noise_ratio_ = 1, noise_change_ = 1, track_factor_ = 1;

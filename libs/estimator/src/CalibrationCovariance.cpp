@@ -22,6 +22,19 @@ Eigen::Matrix<double, 6, 1> mountingDeviations(const Belief::Matrix6& covariance
 	return variances.cwiseSqrt();
 }
 
+/** Rotations are perturbed about O's axes: yaw, which starts first, is the last. */
+Belief::Matrix6 ofFreeParts(const Belief::Matrix6& found, const Belief::Matrix6& believed, const CalibrationFreedom& freedom)
+{
+	if (freedom.yaw && freedom.lever_arm && freedom.tilt) return found;
+	Belief::Matrix6 mixed = believed;
+	if (!freedom.yaw) return mixed;
+	constexpr Eigen::Index yaw = 5;
+	mixed.row(yaw).setZero();
+	mixed.col(yaw).setZero();
+	mixed(yaw, yaw) = found(yaw, yaw);
+	return mixed;
+}
+
 CalibrationCovariance covarianceOf(const Belief& belief, const EstimatorOptions& o)
 {
 	CalibrationCovariance c;
@@ -64,7 +77,7 @@ std::optional<CalibrationCovariance> calibrationCovariance(Window& w)
 
 	// What is held has not moved to where the measurements would have it, and is as sure as it was.
 	const CalibrationFreedom freedom = freedomOf(w);
-	if (result.T_BO && !(freedom.lever_arm && freedom.tilt && freedom.yaw)) result.T_BO = w.belief.T_BO_covariance;
+	if (result.T_BO) *result.T_BO = ofFreeParts(*result.T_BO, w.belief.T_BO_covariance, freedom);
 	if (result.t_d_s2 && !freedom.camera_offset) result.t_d_s2 = w.belief.t_d_variance_s2;
 	if (result.t_w_s2 && !freedom.wheel_offset) result.t_w_s2 = w.belief.t_w_variance_s2;
 	return result;

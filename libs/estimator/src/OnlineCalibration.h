@@ -22,8 +22,8 @@ CalibrationFreedom freedomOf(const Window& window);
 /** Adds what the motion over a keyframe's final interval shows. @param camera_tracks or there is none. */
 void noteExcitation(Window& window, const Frame& before, const Frame& keyframe, bool camera_tracks);
 
-/** Of a wheel interval, with the motion at its ends as the states and the gyro have it: ticks are too coarse for a derivative, and their
- * noise would be the same as that of the interval. Zero where speed or turn rate do not change by more than they are known.
+/** Of a wheel interval, with the motion at its ends as the states and the gyro have it. Zero where speed or turn rate do not change by more
+ * than they are known.
  */
 WheelTimeShift::Jacobian significantWheelShift(const Frame& before, const Frame& after, const Pose3& T_OB);
 

@@ -28,22 +28,18 @@ struct OdometerTwist
 	Eigen::Vector3d w_rad_s = Eigen::Vector3d::Zero();
 };
 
-/** With rates w0, f0 at the begin and w1, f1 at the end, biases taken off, and gravity left to the residual:
- *
- *      dgamma = w1 - gamma^T w0,   dbeta = -w0 x beta - f0 + gamma f1,   dalpha = -w0 x alpha - f0 T + beta
- *
- *  Of an interval without samples it is zero.
+/** With rates w0, w1 at begin and end, the bias taken off: dgamma = w1 - gamma^T w0. alpha and beta are left as they are: forces at an end
+ * carry the noise of a sample that the interval has integrated, and the products would pull the clock by milliseconds on a drive that says
+ * nothing of it. Cutting anew at the offset found brings them along. Of an interval without samples it is zero.
  */
 ImuTimeShift::Jacobian shiftJacobian(const ImuPreintegration& interval);
 
-/** shiftJacobian() without what its own noise may have made: where rate or force at the two ends do not differ by more than samples differ
- *  from their neighbours, that part is zero. Products of noise would add up to information about a clock that nothing has measured.
+/** shiftJacobian() without what its own noise may have made: zero where the rates at the two ends do not differ by more than samples differ
+ *  from their neighbours. Squares of noise would add up to information about a clock that nothing has measured.
  */
 ImuTimeShift::Jacobian significantShiftJacobian(const ImuPreintegration& interval);
 
-/** dphi = w1 - dR^T w0,  dp = -w0 x dp - v0 + dR v1, with the twist at begin and end as something less coarse than ticks tells it. */
+/** dphi = w1 - dR^T w0,  dp = -w0 x dp - v0 + dR v1, with the twist at begin and end as states and gyro tell it: ticks are coarse, and
+ * their noise is that of the interval. */
 WheelTimeShift::Jacobian shiftJacobian(const WheelPreintegration& interval, const OdometerTwist& begin, const OdometerTwist& end);
-
-/** The same with the wheels' own speeds at both ends: exact as far as an end stays within its sample. */
-WheelTimeShift::Jacobian shiftJacobian(const WheelPreintegration& interval);
 }  // namespace viwo

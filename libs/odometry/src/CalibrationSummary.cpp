@@ -36,8 +36,9 @@ Json offsetJson(double given_s, double estimated_s, const std::optional<double>&
 Json mountingJson(const Pose3& T_BO, const CalibrationDeviations& d)
 {
 	Json j = poseJson(T_BO);
-	const bool started = d.lever_arm_started && d.yaw_started;
-	j["state"] = stateOf(d.T_BO.has_value(), started);
+	// A metre shows the yaw, a quarter turn the rest.
+	const bool yaw_alone = d.T_BO.has_value() && d.yaw_started && !d.lever_arm_started;
+	j["state"] = yaw_alone ? "yaw estimated" : stateOf(d.T_BO.has_value(), d.lever_arm_started && d.yaw_started);
 	if (!d.T_BO) return j;
 	// Along O's axes. The height of the IMU over the floor has no influence on planar motion.
 	j["deviation"] = {{"p_in_O_m", {(*d.T_BO)[0], (*d.T_BO)[1], nullptr}}, {"rotation_in_O_rad", vectorJson(d.T_BO->tail<3>())}};

@@ -1,6 +1,7 @@
 #include "calibration/BatchIntervals.h"
 
 #include "ImuPreintegration.h"
+#include "OnlineCalibration.h"
 #include "StateOrder.h"
 #include "TimeShift.h"
 #include "WheelPreintegration.h"
@@ -73,7 +74,8 @@ void cutWheels(const BatchSamples& samples, const EstimatorOptions& options, con
 	if (!segments) return;
 	frame.interval.wheels = std::make_shared<WheelPreintegration>(noise, states.rig().wheels);
 	for (const WheelSegment& s : *segments) frame.interval.wheels->integrate(s);
-	const WheelTimeShift shift{shiftJacobian(*frame.interval.wheels), states.camera_offset_s[0] - states.wheel_offset_s[0]};
+	const Pose3 T_OB = states.rig().T_BO.inverse();
+	const WheelTimeShift shift{significantWheelShift(before, frame, T_OB), states.camera_offset_s[0] - states.wheel_offset_s[0]};
 	frame.wheel_factor = std::make_shared<WheelResidual>(*frame.interval.wheels, shift);
 }
 }  // namespace

@@ -24,8 +24,6 @@ namespace
 // Where the losses turn linear, in deviations of the measurement: beyond what noise alone does.
 constexpr double kImageHuber = 3, kWheelHuber = 4.5, kFloorGate = 3, kReferenceHuber = 4.5;
 constexpr double kGaugePosition_m = 1e-4, kGaugeYaw_rad = 1e-5;
-/** The height of the IMU over the floor moves no sensor on a plane: it is what the start says. */
-constexpr double kGivenHeight_m = 1e-5;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 class Collector
@@ -54,7 +52,6 @@ class Collector
 		const double tilt = p.plane_tilt_deg * kDegree;
 		const std::array<double, 3> level{};
 		addPrior(BlockShape::euclidean(3), level.data(), Eigen::Vector3d(tilt, tilt, options_.floor_height_m), s_.plane.data());
-		addRigPriors();
 		addSensitivityPrior();
 	}
 
@@ -163,30 +160,6 @@ class Collector
 	void addPrior(const BlockShape& shape, const double* x0, const Eigen::VectorXd& sigmas, double* block)
 	{
 		add(BatchGroup::prior, std::make_shared<StatePrior>(shape, x0, sigmas), {block});
-	}
-
-	void addRigPriors()
-	{
-		const SensorRig& start = in_.start;
-		const double turn = square(options_.rotation_deg * kDegree), lever = square(options_.lever_m);
-		std::array<double, 7> T_BO{}, T_BC{};
-		poseToBlock(start.T_BO, T_BO.data());
-		poseToBlock(start.T_BC, T_BC.data());
-		Vector6d variances;
-		variances << lever, lever, square(kGivenHeight_m), Eigen::Vector3d::Constant(turn);
-		const Eigen::Matrix<double, 6, 6> toBlock = imuMountingJacobian(start.T_BO).inverse();
-		Eigen::Matrix<double, 6, 6> covariance = toBlock * variances.asDiagonal() * toBlock.transpose();
-		add(BatchGroup::prior, StatePrior::fromCovariance(BlockShape::pose(), T_BO.data(), covariance), {s_.T_BO.data()});
-		variances[2] = lever;
-		covariance = variances.asDiagonal();
-		add(BatchGroup::prior, StatePrior::fromCovariance(BlockShape::pose(), T_BC.data(), covariance), {s_.T_BC.data()});
-		const std::array<double, 3> wheels{start.wheels.k_left, start.wheels.k_right, start.wheels.track_m};
-		addPrior(BlockShape::euclidean(3), wheels.data(),
-		         Eigen::Vector3d(options_.wheel_scale, options_.wheel_scale, options_.track_relative * start.wheels.track_m),
-		         s_.wheels.data());
-		const Eigen::VectorXd offset = Eigen::VectorXd::Constant(1, options_.time_offset_s);
-		addPrior(BlockShape::euclidean(1), &start.camera_offset_s, offset, s_.camera_offset_s.data());
-		addPrior(BlockShape::euclidean(1), &start.wheel_offset_s, offset, s_.wheel_offset_s.data());
 	}
 
 	void addSensitivityPrior()

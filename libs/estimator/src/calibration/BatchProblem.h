@@ -33,8 +33,8 @@ struct BatchTrust
 	double outlier_px = 5;  //!< mean error that throws a landmark out
 };
 
-/** All factors of the log in a fixed order. Landmarks are triangulated anew: those of the map are replaced. Wheel factors of frames that
- * are marked as slipping are left out. */
+/** All factors of the log but the priors of the rig, in a fixed order. Landmarks are triangulated anew: those of the map are replaced.
+ * Wheel factors of frames that are marked as slipping are left out. */
 std::vector<BatchFactor> collectBatch(const BatchCalibrationInput& input, const BatchCalibrationOptions& options,
                                       const EstimatorOptions& estimator, const BatchTrust& trust, const std::vector<bool>& slipping,
                                       BatchStates& states, LandmarkMap& landmarks);

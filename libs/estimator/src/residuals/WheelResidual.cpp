@@ -11,6 +11,7 @@ namespace viwo
 {
 namespace
 {
+constexpr Eigen::Index forward_row = 0, yaw_row = 5;
 constexpr size_t mounting_block = 3, camera_offset_block = 4, wheel_offset_block = 5;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using PoseJacobian = Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>;
@@ -42,13 +43,27 @@ WheelResidual::WheelResidual(const WheelPreintegration& preintegration, const Po
 {
 }
 
+WheelResidual::Units WheelResidual::units(const Eigen::Vector3d& intrinsics) const
+{
+	const double k = 0.5 * (intrinsics[0] + intrinsics[1]), k_0 = 0.5 * (intrinsics_[0] + intrinsics_[1]);
+	const double forward = k_0 / k, yaw = forward * intrinsics[2] / intrinsics_[2];
+	Units u;
+	u.factor.setOnes();
+	u.factor[forward_row] = forward;
+	u.factor[yaw_row] = yaw;
+	u.d_forward << -0.5 * forward / k, -0.5 * forward / k, 0;
+	u.d_yaw << -0.5 * yaw / k, -0.5 * yaw / k, forward / intrinsics_[2];
+	return u;
+}
+
 WheelResidual::Terms WheelResidual::evaluate(double const* const* x, double* residuals) const
 {
 	Terms t;
 	t.T_i = poseFromBlock(x[0]);
 	t.T_j = poseFromBlock(x[1]);
 	t.T_BO = T_BO_;
-	Vector6d correction = intrinsics_jacobian_ * (Eigen::Map<const Eigen::Vector3d>(x[2]) - intrinsics_);
+	const Eigen::Map<const Eigen::Vector3d> intrinsics(x[2]);
+	Vector6d correction = intrinsics_jacobian_ * (intrinsics - intrinsics_);
 	if (shapes().size() > mounting_block)
 	{
 		t.T_BO = poseFromBlock(x[mounting_block]);
@@ -63,9 +78,10 @@ WheelResidual::Terms WheelResidual::evaluate(double const* const* x, double* res
 	t.p_BiOj = t.T_i.R.conjugate() * (t.T_j * t.T_BO.p - t.T_i.p);
 	t.lever = R_OB * (t.p_BiOj - t.T_BO.p);
 	t.r_phi = so3::log(Eigen::Quaterniond(dR.conjugate() * t.R_WOi.conjugate() * t.R_WOj));
-	Vector6d r;
-	r << t.lever - dp_ - correction.head<3>(), t.r_phi;
-	Eigen::Map<Vector6d>{residuals} = whiten_ * r;
+	t.r << t.lever - dp_ - correction.head<3>(), t.r_phi;
+	t.units = units(intrinsics);
+	t.whiten = whiten_ * t.units.factor.asDiagonal();
+	Eigen::Map<Vector6d>{residuals} = t.whiten * t.r;
 	return t;
 }
 
@@ -83,19 +99,21 @@ bool WheelResidual::evaluateLocal(double const* const* x, double* residuals, dou
 	{
 		Matrix6d J;
 		J << -R_OiW, R_OB * so3::skew(t.p_BiOj), zero, -J_phi * (t.R_WOj.conjugate() * t.T_i.R).toRotationMatrix();
-		PoseJacobian{jacobians[0]} = whiten_ * J;
+		PoseJacobian{jacobians[0]} = t.whiten * J;
 	}
 	if (jacobians[1])
 	{
 		Matrix6d J;
 		J << R_OiW, -R_OiW * t.T_j.R.toRotationMatrix() * so3::skew(t.T_BO.p), zero, J_phi * R_OB;
-		PoseJacobian{jacobians[1]} = whiten_ * J;
+		PoseJacobian{jacobians[1]} = t.whiten * J;
 	}
 	if (jacobians[2])
 	{
 		Eigen::Matrix<double, 6, 3> J = -intrinsics_jacobian_;
 		J.bottomRows<3>() = J_dR * intrinsics_jacobian_.bottomRows<3>();
-		Eigen::Map<Eigen::Matrix<double, 6, 3, Eigen::RowMajor>>{jacobians[2]} = whiten_ * J;
+		J.row(forward_row) += t.r[forward_row] / t.units.factor[forward_row] * t.units.d_forward;
+		J.row(yaw_row) += t.r[yaw_row] / t.units.factor[yaw_row] * t.units.d_yaw;
+		Eigen::Map<Eigen::Matrix<double, 6, 3, Eigen::RowMajor>>{jacobians[2]} = t.whiten * J;
 	}
 	if (shapes().size() > mounting_block) calibrationJacobians(t, J_phi, J_dR, jacobians);
 	return true;
@@ -112,11 +130,11 @@ void WheelResidual::calibrationJacobians(const Terms& t, const Eigen::Matrix3d& 
 		const Eigen::Matrix3d R_OjOi = (t.R_WOj.conjugate() * t.R_WOi).toRotationMatrix();
 		Matrix6d J;
 		J << R_OB * (R_BiBj - I), so3::skew(t.lever), Eigen::Matrix3d::Zero(), J_phi * (I - R_OjOi);
-		PoseJacobian{jacobians[mounting_block]} = whiten_ * J;
+		PoseJacobian{jacobians[mounting_block]} = t.whiten * J;
 	}
 	Vector6d J = -shift_.per_s;
 	J.tail<3>() = J_dR * shift_.per_s.tail<3>();
-	if (jacobians[camera_offset_block]) Eigen::Map<Vector6d>{jacobians[camera_offset_block]} = whiten_ * J;
-	if (jacobians[wheel_offset_block]) Eigen::Map<Vector6d>{jacobians[wheel_offset_block]} = -(whiten_ * J);
+	if (jacobians[camera_offset_block]) Eigen::Map<Vector6d>{jacobians[camera_offset_block]} = t.whiten * J;
+	if (jacobians[wheel_offset_block]) Eigen::Map<Vector6d>{jacobians[wheel_offset_block]} = -(t.whiten * J);
 }
 }  // namespace viwo

@@ -18,6 +18,11 @@ namespace viwo
  *  with, to first order in the change d of the intrinsics since the preintegration, dp + J_p d and dR Exp(theta), theta = J_phi d.
  *  The lever arm is here only and not in the preintegration.
  *
+ *  The encoders' noise is in what they measure, so it grows with the size that the wheels are given: were it weighed as if it did not,
+ * small wheels would explain any motion best, and each interval would pull them a little that way. So the rows that are the encoders'
+ * alone, forward and yaw, count in units of the measurement: they are divided by k / k_0 and by (k / k_0) (track_0 / track), with k the
+ * mean of k_left and k_right and 0 for what the covariance was propagated with.
+ *
  *  Where the wheels' place and the clocks are estimated too, T_BO is a state, and the interval's shift adds to the correction:
  *  S (t_d - t_w - shift_0), since frames are at t_CAM + t_d - t_w in the wheels' clock (t_IMU = t_CAM + t_d = t_WHEEL + t_w). Then
  *
@@ -41,15 +46,26 @@ class WheelResidual : public LocalCost
 
 	bool evaluateLocal(double const* const* x, double* residuals, double** jacobians) const override;
 
-	/** The lower triangular factor that is applied to the rows [r_p, r_phi]. */
+	/** The lower triangular factor that is applied to the rows [r_p, r_phi] where the intrinsics are those of the preintegration. */
 	const Whitening& whiteningFactor() const { return whiten_; }
 
    private:
 	WheelResidual(const WheelPreintegration& preintegration, const Pose3& T_BO, double covariance_inflation, std::vector<BlockShape> shapes,
 	              const WheelTimeShift& shift);
+	using IntrinsicsGradient = Eigen::Matrix<double, 1, 3>;
+	/** Into units of the measurement, and how that depends on the intrinsics. */
+	struct Units
+	{
+		Eigen::Matrix<double, 6, 1> factor;
+		IntrinsicsGradient d_forward, d_yaw;
+	};
+	Units units(const Eigen::Vector3d& intrinsics) const;
 	/** What residual and Jacobians share. */
 	struct Terms
 	{
+		Units units;
+		Eigen::Matrix<double, 6, 1> r;  //!< in metres and radians
+		Whitening whiten;               //!< with the units in it
 		Pose3 T_i, T_j, T_BO;
 		Eigen::Quaterniond R_WOi, R_WOj;
 		Eigen::Vector3d p_BiOj, lever;  //!< lever: of O_j from O_i, in O_i

@@ -133,8 +133,9 @@ struct BatchCalibrationResult
 	Eigen::Matrix<bool, RigOrder::size, 1> observed = Eigen::Matrix<bool, RigOrder::size, 1>::Constant(false);
 	/** With the start's rig, all else at its best, and with the one that was found. */
 	CalibrationQuality before, after;
-	double pixel_sigma_px = 0;     //!< as the residuals say
-	double wheel_noise_ratio = 1;  //!< of the wheels' noise to the configured one
+	std::vector<std::string> notes;  //!< what makes the result doubtful, a sentence each
+	double pixel_sigma_px = 0;       //!< as the residuals say
+	double wheel_noise_ratio = 1;    //!< of the wheels' noise to the configured one
 	double slip_s = 0;
 	int keyframes = 0, landmarks = 0, rounds = 0;
 };
