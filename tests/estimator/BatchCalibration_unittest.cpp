@@ -185,6 +185,57 @@ TEST(BatchCalibration, AStraightLineSaysNothingOfTrackAndLeverArms)
 	EXPECT_TRUE(result.observed[RigOrder::imu_rotation + 2]);  // where forward is
 }
 
+/** No error beyond its deviation, whatever the drive shows. */
+void expectHonestDeviations(const BatchCalibrationResult& result, const SensorRig& truth)
+{
+	const RigVector error = rigDifference(result.rig, truth);
+	for (int i = 0; i < RigOrder::size; ++i)
+	{
+		const std::string& name = RigOrder::names()[static_cast<size_t>(i)];
+		if (!result.observed[i]) continue;
+		measured(name + ", error over deviation", error[i] / result.deviations[i], "");
+		EXPECT_LT(std::abs(error[i]), 4 * result.deviations[i]) << name;
+	}
+}
+
+/** Wheels at low speed tell little of their size, and their noise is as large as what the accelerometer sees. */
+TEST(BatchCalibration, NoiseOnAGentleDriveDoesNotPassForSize)
+{
+	DriveSetup setup("stand 2 s, 4 x (straight 1.5 m, rotate 90 deg), stand 1 s");
+	setup.tracks.max_features = 30;
+	const Drive drive(setup);
+	const SensorRig truth = truthOf(drive, setup);
+	const BatchCalibrationResult result = calibrateInBatch(inputOf(drive, truth), {}, {});
+	ASSERT_EQ(result.problem, "");
+	expectHonestDeviations(result, truth);
+}
+
+TEST(BatchCalibration, AConstantArcHoldsWhatItDoesNotShow)
+{
+	DriveSetup setup("stand 2 s, arc 1 m 300 deg, stand 1 s");
+	setup.tracks.max_features = 30;
+	const Drive drive(setup);
+	const SensorRig truth = truthOf(drive, setup);
+	const BatchCalibrationResult result = calibrateInBatch(inputOf(drive, truth), {}, {});
+	ASSERT_EQ(result.problem, "");
+	EXPECT_FALSE(result.observed[RigOrder::track]);
+	EXPECT_EQ(result.rig.wheels.track_m, truth.wheels.track_m);
+	expectHonestDeviations(result, truth);
+}
+
+TEST(BatchCalibration, AFarStartIsNoted)
+{
+	DriveSetup setup = briskDrive("stand 2 s, 3 x (straight 1 m, rotate 120 deg), stand 1 s");
+	const Drive drive(setup);
+	SensorRig start = truthOf(drive, setup);
+	EXPECT_TRUE(calibrateInBatch(inputOf(drive, start), {}, {}).notes.empty());
+	start.wheels.track_m *= 1.4;
+	const BatchCalibrationResult result = calibrateInBatch(inputOf(drive, start), {}, {});
+	ASSERT_EQ(result.problem, "");
+	ASSERT_FALSE(result.notes.empty());
+	EXPECT_NE(result.notes.front().find("track is"), std::string::npos) << result.notes.front();
+}
+
 TEST(BatchCalibration, SaysWhatIsMissing)
 {
 	const DriveSetup setup = briskDrive("stand 24 s");

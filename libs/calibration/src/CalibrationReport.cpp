@@ -128,6 +128,7 @@ std::string deviationsText(const CalibrationRunResult& result)
 		if (row.observed && !row.unit.empty()) text.append(" ").append(row.unit);
 		text.append("\n");
 	}
+	for (const std::string& note : result.batch.notes) text.append("Note: ").append(note).append("\n");
 	return text;
 }
 }  // namespace
@@ -151,6 +152,7 @@ std::string calibrationJson(const CalibrationRunResult& result)
 	json["wheel_noise_ratio"] = result.batch.wheel_noise_ratio;
 	json["slip_s"] = result.batch.slip_s;
 	json["wall_time_s"] = result.wall_time_s;
+	json["notes"] = result.batch.notes;
 	for (const CalibrationRow& row : result.rows)
 	{
 		Json& parameter = json["parameters"][row.key];
@@ -173,13 +175,17 @@ std::string calibrationHtml(const CalibrationRunResult& result)
 {
 	HtmlPage page("Calibration");
 	page.paragraph(summaryLine(result) + (result.reference.empty() ? "." : "; reference " + result.reference + "."));
+	for (const std::string& note : result.batch.notes) page.paragraph("Note: " + note + ".");
 	page.heading("What was found");
 	page.table(
 	    parameterTable(result),
 	    "x forward, y left, z up from the middle of the wheel axle on the ground. Deviations are standard deviations. What the motion "
 	    "does not tell is kept as it was given; on a plane that is always the height of the IMU.");
 	page.heading("Residuals before and after");
-	page.paragraph("Before: with the calibration at the start, and everything else (path, landmarks, biases) at its best.");
+	page.paragraph(
+	    "Before: with the calibration at the start, and everything else (path, landmarks, biases) at its best; there corners count that "
+	    "are "
+	    "off by up to 30 px. Those that lie far off are weighed down, so these figures are larger than the noise of a corner.");
 	page.table(qualityTable(result), "");
 	addMisfits(result, page);
 	return page.toString();
