@@ -13,15 +13,9 @@ Words noCalibration()
 	return {"factors.estimate_wheel_intrinsics=false", "factors.estimate_T_BC=false"};
 }
 
-/** Everything, believed as little as the wrong start deserves. */
 Words allCalibration()
 {
-	return {"factors.estimate_T_BO=true",
-	        "factors.estimate_camera_time_offset=true",
-	        "factors.estimate_wheel_time_offset=true",
-	        "priors.wheel_scale=0.02",
-	        "priors.track_relative=0.03",
-	        "priors.T_BC_translation_m=0.02"};
+	return {"factors.estimate_T_BO=true", "factors.estimate_camera_time_offset=true", "factors.estimate_wheel_time_offset=true"};
 }
 
 class OnlineCalibration : public Group
