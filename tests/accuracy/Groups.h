@@ -35,7 +35,7 @@ std::unique_ptr<Group> robots(const Settings& settings);
 /** viwo-calibrate estimate from a wrong start, on the drive that is made for it. */
 std::unique_ptr<Group> calibration(const Settings& settings);
 
-/** All calibration in the estimator against none, from a wrong start and from the right one, on the same drive. */
+/** The switches of calibration while driving against none of them, from a wrong start and from the right one, on the same drive. */
 std::unique_ptr<Group> onlineCalibration(const Settings& settings);
 
 /** Recordings of real cars and copters, where they are at hand. */
