@@ -33,6 +33,11 @@ constexpr double kSettled = 0.2, kSettledNoise = 0.05;
  */
 constexpr double kSlipSquare = 36;
 
+bool isOfCamera(int parameter)
+{
+	return parameter >= RigOrder::camera_lever && parameter < RigOrder::camera_offset;
+}
+
 class BatchRun
 {
    public:
@@ -275,10 +280,9 @@ class BatchRun
 		const RigVector moved = rigDifference(result_.rig, in_.start);
 		for (int i = 0; i < RigOrder::size; ++i)
 			if (result_.observed[i] && std::abs(moved[i]) > kFar * result_.prior_deviations[i])
-				note(
-				    "%s is %.1f times as far from the start as [calibration] expects: check it by hand, and the lens, whose errors it "
-				    "takes up",
-				    RigOrder::names()[static_cast<size_t>(i)].c_str(), std::abs(moved[i]) / result_.prior_deviations[i]);
+				note("%s is %.1f times as far from the start as [calibration] expects: check it by hand%s",
+				     RigOrder::names()[static_cast<size_t>(i)].c_str(), std::abs(moved[i]) / result_.prior_deviations[i],
+				     isOfCamera(i) ? ", and the lens, whose errors it takes up" : "");
 		constexpr double kBlurred_px = 0.8;
 		if (result_.pixel_sigma_px > kBlurred_px)
 			note("corners are off by %.2f px, usual is 0.3 to 0.5: lens calibration, mounting of the camera or its resolution may be wrong",
