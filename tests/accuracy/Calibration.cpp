@@ -101,9 +101,9 @@ class CalibrationGroup : public Group
 
 std::vector<std::string> CalibrationGroup::bars() const
 {
-	std::vector<std::string> names{"calibration from a wrong start: errors within 3 of their deviations",
-	                               "calibration from a wrong start: parameters observed besides the heights"};
-	for (const Kind& kind : kinds()) names.push_back(std::string("calibration from a wrong start: worst ") + kind.what);
+	std::vector<std::string> names{"calibration: errors within 3 of their deviations",
+	                               "calibration: parameters observed besides the heights"};
+	for (const Kind& kind : kinds()) names.push_back(std::string("calibration: worst ") + kind.what);
 	return names;
 }
 

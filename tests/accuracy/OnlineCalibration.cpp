@@ -30,8 +30,8 @@ class OnlineCalibration : public Group
 
 std::vector<std::string> OnlineCalibration::bars() const
 {
-	return {"online calibration from a wrong start: worst ATE over that without its switches",
-	        "online calibration from the right start: worst ATE over that without its switches"};
+	return {"online calibration of a wrong rig: worst ATE over that without its switches",
+	        "online calibration of the right rig: worst ATE over that without its switches"};
 }
 
 std::vector<RunRecipe> OnlineCalibration::runs(bool wrong_start, bool calibrating) const
