@@ -46,8 +46,7 @@ int allan(AllanArguments& a)
 	const ImuNoiseResult result = estimateImuNoise(a.noise, hooks);
 	bar.clear();
 	std::cout << describeImuNoise(result) << std::flush;
-	if (!app::quiet())
-		for (const std::string& warning : result.warnings) std::cerr << "viwo-calibrate: note: " << warning << std::endl;
+	tellNotes(result.warnings);
 	writeRig(a, rig, result);
 	if (!a.svg.empty()) saveImuNoiseSvg(a.svg, result);
 	if (!a.html.empty()) saveImuNoiseHtml(a.html, result);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <memory>
 
 #include "Command.h"
@@ -50,8 +49,7 @@ void print(const std::string& path, const ImportedRig& imported)
 		            rig.imu->mounting.y_m, rig.imu->mounting.z_m);
 	std::printf("\n");
 	std::fflush(stdout);
-	if (app::quiet()) return;
-	for (const std::string& warning : imported.warnings) std::cerr << "viwo-calibrate: note: " << warning << std::endl;
+	tellNotes(imported.warnings);
 }
 
 int importFiles(Arguments& a)
