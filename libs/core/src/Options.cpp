@@ -1,4 +1,5 @@
 #include <viwo/core/Error.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/Options.h>
 
 #include <algorithm>

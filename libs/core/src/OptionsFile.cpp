@@ -1,6 +1,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/Options.h>
 
 #include <algorithm>

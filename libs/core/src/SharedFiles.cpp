@@ -1,4 +1,5 @@
 #include <viwo/core/Error.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/SharedFiles.h>
 
 #include <cstdlib>
@@ -28,12 +29,7 @@ std::string findShare(const std::string& relative)
 		for (const auto& entry : fs::directory_iterator(candidate.parent_path(), ignored)) names.insert(entry.path().filename().string());
 		looked_at += (looked_at.empty() ? "" : ", ") + root.string();
 	}
-	if (!names.empty())
-	{
-		std::string list;
-		for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-		throw Error("there is no shared file '" + relative + "'; there are: " + list);
-	}
+	if (!names.empty()) throw Error("there is no shared file '" + relative + "'; there are: " + joined(names));
 	throw Error("shared file '" + relative + "' not found in " + looked_at +
 	            "; set VIWO_SHARE to the folder share/viwo of the installation");
 }

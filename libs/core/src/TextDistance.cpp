@@ -46,11 +46,4 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 	}
 	return best ? " (did you mean '" + *best + "'?)" : "";
 }
-
-std::string joined(const std::vector<std::string>& words)
-{
-	std::string text;
-	for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-	return text;
-}
 }  // namespace viwo

@@ -9,7 +9,4 @@ std::string lowered(std::string text);
 
 /** " (did you mean 'x'?)" for the nearest of the candidates, or "" where none is near. */
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
-
-/** "a, b, c" */
-std::string joined(const std::vector<std::string>& words);
 }  // namespace viwo

@@ -3,6 +3,7 @@
 #include "RosInstance.h"
 #include "RosWheels.h"
 
+#include <viwo/core/Joined.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
@@ -104,10 +105,8 @@ void RosBagSources::requireBaseFrame() const
 	if (base_frame_.empty() || isKnown(base_frame_)) return;
 	std::set<std::string> known = frames_.names();
 	known.insert(frames_of_headers_.begin(), frames_of_headers_.end());
-	std::string names;
-	for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
 	throw Error(bag_.name() + ": [general] base_frame = " + base_frame_ +
-	            ": neither tf nor a message names this frame; there are: " + (names.empty() ? "none" : names));
+	            ": neither tf nor a message names this frame; there are: " + (known.empty() ? "none" : joined(known)));
 }
 
 bool RosBagSources::allPlaced() const

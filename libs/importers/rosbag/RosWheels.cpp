@@ -3,6 +3,7 @@
 #include "RosInstance.h"
 
 #include <sensor_msgs/JointState.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
@@ -69,13 +70,11 @@ void requireWheels(const RosBagFile& bag, const TopicMapping& mapping)
 		          return !found;
 	          });
 	if (found) return;
-	std::string names;
-	for (const std::string& name : there) names += (names.empty() ? "" : ", ") + name;
 	for (const auto& [key, joints] : {std::pair("left_joints", mapping.left_joints), std::pair("right_joints", mapping.right_joints)})
 		for (const std::string& joint : wordsOf(joints))
 			if (there.count(joint) == 0)
 				throw Error(bag.name() + ": [" + mapping.label + "] " + key + " = " + joints + ": " + mapping.topic + " has no joint " +
-				            joint + "; it has: " + (names.empty() ? "none" : names));
+				            joint + "; it has: " + (there.empty() ? "none" : joined(there)));
 	throw Error(bag.name() + ": [" + mapping.label + "]: no message of " + mapping.topic +
 	            " has positions or velocities of all left_joints and right_joints; leave it out by a --map");
 }

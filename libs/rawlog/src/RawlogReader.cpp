@@ -1,5 +1,6 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/MrptTime.h>
 #include <viwo/rawlog/RawlogReader.h>
@@ -29,9 +30,7 @@ std::string RawlogCounts::describe() const
 
 std::string rawlogNames(const std::vector<std::string>& paths)
 {
-	std::string names;
-	for (const std::string& path : paths) names += (names.empty() ? "" : ", ") + path;
-	return names;
+	return joined(paths);
 }
 
 struct RawlogReader::Impl
