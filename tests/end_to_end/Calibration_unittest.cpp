@@ -102,6 +102,8 @@ TEST_F(CalibrateProgram, APartOfALogAndOtherLabels)
 	const double duration_s = Json::parse(part.out)["duration_s"].get<double>();
 	std::cout << "[measured] " << duration_s << " s of " << length_s << "\n";
 	EXPECT_NEAR(duration_s, length_s - 1, 0.15);
+	EXPECT_EQ(Json::parse(part.out)["from_s"].get<double>(), 0.8);
+	EXPECT_NE(readFile(folder_.file("rig.ini")).find(log.rawlog + " from 0.8 s on.\n"), std::string::npos) << "the head says what was used";
 	std::filesystem::remove(folder_.file("rig.ini"));
 	expectError({"-i", log.rawlog, "--from", "1000"}, "not all there between --from and --to");
 	expectError({"-i", log.rawlog, "--imu-label", "XSENS"}, "under label XSENS");

@@ -75,13 +75,18 @@ std::string notObservedLine(const CalibrationRunResult& result)
 	return {};
 }
 
+/** The drive, or the part of it. */
+std::string usedPart(const CalibrationRunResult& r)
+{
+	return number(r.duration_s, 1) + " s of " + r.rawlogs + (r.from_s > 0 ? " from " + number(r.from_s, 1) + " s on" : "");
+}
+
 std::string summaryLine(const CalibrationRunResult& r)
 {
 	const BatchCalibrationResult& b = r.batch;
-	return number(r.duration_s, 1) + " s of " + r.rawlogs + ": " + std::to_string(b.keyframes) + " key frames, " +
-	       std::to_string(b.landmarks) + " landmarks, " + std::to_string(b.rounds) + " rounds; noise of a corner " +
-	       number(b.pixel_sigma_px, 2) + " px, of the wheels " + number(b.wheel_noise_ratio, 2) + " times the configured, slip " +
-	       number(b.slip_s, 1) + " s";
+	return usedPart(r) + ": " + std::to_string(b.keyframes) + " key frames, " + std::to_string(b.landmarks) + " landmarks, " +
+	       std::to_string(b.rounds) + " rounds; noise of a corner " + number(b.pixel_sigma_px, 2) + " px, of the wheels " +
+	       number(b.wheel_noise_ratio, 2) + " times the configured, slip " + number(b.slip_s, 1) + " s";
 }
 
 LineChart misfitChart(const CalibrationRunResult& result, const std::string& title, const std::string& label,
@@ -144,6 +149,7 @@ std::string calibrationJson(const CalibrationRunResult& result)
 	json["program"] = "viwo-calibrate estimate " VIWO_VERSION;
 	json["rawlog"] = result.rawlogs;
 	if (!result.reference.empty()) json["reference"] = result.reference;
+	json["from_s"] = result.from_s;
 	json["duration_s"] = result.duration_s;
 	json["key_frames"] = result.batch.keyframes;
 	json["landmarks"] = result.batch.landmarks;
@@ -193,7 +199,7 @@ std::string calibrationHtml(const CalibrationRunResult& result)
 
 void saveCalibration(const CalibrationRunResult& result, const std::string& path)
 {
-	result.rig.save(path, "Calibration of a robot's sensors, estimated by viwo-calibrate " VIWO_VERSION " from " + result.rawlogs +
+	result.rig.save(path, "Calibration of a robot's sensors, estimated by viwo-calibrate " VIWO_VERSION " from " + usedPart(result) +
 	                          ".\nFor viwo-odometry --rig, and rawlog-edit --camera-params LABEL,FILE and --sensors-pose FILE.\n" +
 	                          deviationsText(result));
 }

@@ -100,6 +100,7 @@ CalibrationRunResult runCalibration(const CalibrationRunOptions& options, const 
 	CalibrationRunResult result;
 	result.rawlogs = rawlogNames(options.rawlogs);
 	result.reference = options.reference;
+	result.from_s = options.from_s;
 	Trajectory reference;
 	if (!options.reference.empty()) reference = Trajectory::loadTum(options.reference);
 	BatchCalibrationInput input = readLog(options, hooks);

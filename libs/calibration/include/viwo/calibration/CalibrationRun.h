@@ -52,6 +52,7 @@ struct CalibrationRunResult
 	RigFile rig;  //!< what was found; camera model and noise as they were
 	std::vector<CalibrationRow> rows;
 	std::string rawlogs, reference;
+	double from_s = 0;  //!< where the part that was used begins, as in the options
 	double duration_s = 0, wall_time_s = 0;
 };
 
