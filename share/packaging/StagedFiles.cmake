@@ -1,4 +1,5 @@
 # Run by cpack on what is installed, before it is packed: Debian's libraries are found without a path in each file, and all files have one date.
+cmake_policy(SET CMP0009 NEW)
 file(GLOB_RECURSE staged LIST_DIRECTORIES false ${CPACK_TEMPORARY_DIRECTORY}/*)
 foreach(path IN LISTS staged)
 	if(NOT IS_SYMLINK ${path})

@@ -162,7 +162,7 @@ TEST_F(InputCheck, LogsInTheWrongOrderAreToldBeforehand)
 	EXPECT_NO_THROW(checkInput(o));
 	std::swap(o.rawlogs[0], o.rawlogs[1]);
 	viwo::testing::expectError([&] { checkInput(o); },
-	                           {"first.rawlog: begins 10.0 s before", "second.rawlog; give", "order of their time"});
+	                           {"first.rawlog: begins 10.000 s before", "second.rawlog; give", "order of their time"});
 }
 
 TEST_F(InputCheck, MissingMaskIsToldByConfigurationAndKey)

@@ -136,6 +136,36 @@ void shift(mrpt::obs::CObservation& o, double by_s)
 	o.timestamp = mrptTime(nanosecondsOf(o.timestamp) + nanoseconds(by_s));
 }
 
+/** Exact encoder ticks at 1 m/s for 20 s, of which each third is stamped late. */
+double wheelTravelOfTicks_m(double late_s)
+{
+	OdometryOptions options = optionsOf(Mode::wheel);
+	options.rawlog.odometry_source = AdapterOptions::OdometrySource::ticks_absolute;
+	options.rawlog.metres_per_tick = 1e-4;
+	std::vector<mrpt::obs::CObservation::Ptr> readings;
+	for (int i = 0; i < 2000; ++i)
+	{
+		const auto reading = mrpt::obs::CObservationOdometry::Create();
+		reading->sensorLabel = "ODOMETRY";
+		reading->timestamp = mrptTime(nanoseconds(1e6 + 0.01 * i + (i % 3 == 0 ? late_s : 0)));
+		reading->hasEncodersInfo = true;
+		reading->encoderLeftTicks = reading->encoderRightTicks = 100 * i;
+		readings.push_back(reading);
+	}
+	Odometry odometry(options);
+	feed(odometry, readings);
+	return odometry.wheelTravel_m();
+}
+
+/** Speeds are means since the sample before: averaged once more, they would tell several percent too much here. */
+TEST(Odometry, WheelTravelIsThatOfTheTicksHoweverUnevenTheirStamps)
+{
+	const double even_m = wheelTravelOfTicks_m(0), uneven_m = wheelTravelOfTicks_m(0.004);
+	std::cout << "[measured] " << uneven_m << " m with uneven stamps, " << even_m << " m with even ones\n";
+	EXPECT_NEAR(even_m, 20, 0.5) << "but for what came before the first pose";
+	EXPECT_NEAR(uneven_m, even_m, 0.02);
+}
+
 TEST_P(OdometryModes, OneWrongStampCostsOneObservation)
 {
 	const DrivenLog log("straight 0.6 m");

@@ -66,7 +66,7 @@ void requireOrderOfTime(const std::vector<std::string>& rawlogs, const RawlogRea
 		const auto first_ns = firstStamp_ns(RawlogReader(path, options)), before_ns = firstStamp_ns(RawlogReader(path_before, options));
 		if (!first_ns || !before_ns || *first_ns >= *before_ns) continue;
 		char text[64];
-		std::snprintf(text, sizeof text, ": begins %.1f s before ", secondsBetween(*first_ns, *before_ns));
+		std::snprintf(text, sizeof text, ": begins %.3f s before ", secondsBetween(*first_ns, *before_ns));
 		throw Error(path + text + path_before + "; give the rawlogs of one run in the order of their time");
 	}
 }

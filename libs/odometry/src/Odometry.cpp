@@ -39,7 +39,6 @@ struct Odometry::Impl
 	std::deque<ImageRef> images;  //!< not yet processed
 	StreamClock stream{OdometryOptions::kLongestBlind_s};
 	int64_t latest_imu_ns = 0, latest_wheels_ns = 0;
-	std::optional<WheelSample> last_wheels;
 	double wheel_travel_m = 0;  //!< since the first pose
 	std::optional<int64_t> last_frame_ns, last_image_ns, first_sample_ns, first_frame_ns;
 
@@ -119,13 +118,12 @@ void Odometry::Impl::take(const ImuSample& s)
 
 void Odometry::Impl::take(const WheelSample& s)
 {
-	latest_wheels_ns = s.t_ns;
-	if (last_wheels && !trajectory.empty())
+	if (latest_wheels_ns > 0 && !trajectory.empty())
 	{
-		const double speed_m_s = 0.25 * std::abs(last_wheels->v_left_m_s + last_wheels->v_right_m_s + s.v_left_m_s + s.v_right_m_s);
-		wheel_travel_m += speed_m_s * std::min(secondsBetween(last_wheels->t_ns, s.t_ns), kLongestWheelStep_s);
+		const double speed_m_s = 0.5 * std::abs(s.v_left_m_s + s.v_right_m_s);  // mean since the sample before
+		wheel_travel_m += speed_m_s * std::min(secondsBetween(latest_wheels_ns, s.t_ns), kLongestWheelStep_s);
 	}
-	last_wheels = s;
+	latest_wheels_ns = s.t_ns;
 	stream.advance(s.t_ns);
 	if (!first_sample_ns) first_sample_ns = s.t_ns;
 	if (estimator)

@@ -158,7 +158,7 @@ void RawlogReader::Impl::requireOrder(const std::vector<CObservation::Ptr>& obse
 		const int64_t t_ns = nanosecondsOf(o->timestamp);
 		if (t_ns + window_ns >= newest_ns) continue;
 		char text[64];
-		std::snprintf(text, sizeof text, ": begins %.1f s before the end of ", secondsBetween(t_ns, newest_ns));
+		std::snprintf(text, sizeof text, ": begins %.3f s before the end of ", secondsBetween(t_ns, newest_ns));
 		throw Error(source.path() + text + source.pathBefore() + "; give the rawlogs of one run in the order of their time");
 	}
 }

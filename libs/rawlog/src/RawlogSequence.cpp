@@ -32,7 +32,7 @@ double bytesOf(const std::string& path)
 void requireOnce(const std::string& path, const std::vector<std::string>& paths)
 {
 	std::error_code ignored;
-	const auto same = [&](const std::string& other) { return fs::equivalent(path, other, ignored); };
+	const auto same = [&](const std::string& other) { return other == path || fs::equivalent(path, other, ignored); };
 	if (std::count_if(paths.begin(), paths.end(), same) > 1) throw Error(path + ": given twice; name each rawlog of a run once");
 }
 }  // namespace
