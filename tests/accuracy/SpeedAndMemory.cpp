@@ -1,6 +1,7 @@
 #include "Groups.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "Drives.h"
 

@@ -57,6 +57,22 @@ TEST(RecordingInfo, EurocFolderAndItsRawlog)
 	expectError([&] { inspect(folder.file("nothing")); }, {"nothing", "EuRoC", "KITTI"});
 }
 
+TEST(RecordingInfo, LongNamesAreNotCut)
+{
+	RecordingInfo info;
+	info.path = "x.bag";
+	StreamInfo camera, imu;
+	camera.name = "/" + std::string(3000, 'c') + "/image";
+	camera.type = std::string(500, 't') + "/Image";
+	camera.role = SensorRole::camera;
+	camera.calibrated = false;
+	imu.role = SensorRole::imu;
+	imu.rate_hz = 100;
+	info.streams = {camera, imu};
+	const std::string remark = "; the calibration of " + camera.name + " is missing\n";
+	expectText(info, {camera.name.c_str(), camera.type.c_str(), "to s\n", remark.c_str()});
+}
+
 TEST(RecordingInfo, KittiFolder)
 {
 	const TempFolder folder;

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <mrpt/core/format.h>
 #include <viwo/app/Documents.h>
 #include <viwo/app/Program.h>
 #include <viwo/core/AtomicFile.h>
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -148,14 +148,6 @@ void checkOutputs(const CLI::App& cli)
 	for (const std::string& path : outputs) requireWritable(path);
 }
 
-/** The shortest text of the number. */
-std::string textOf(double value)
-{
-	char text[32];
-	std::snprintf(text, sizeof text, "%g", value);
-	return text;
-}
-
 CLI::Validator finiteNumber(const std::string& what, const std::function<bool(double)>& holds)
 {
 	const auto check = [what, holds](std::string& text)
@@ -185,12 +177,12 @@ CLI::Validator finite()
 
 CLI::Validator between(double least, double most)
 {
-	return finiteNumber(" from " + textOf(least) + " to " + textOf(most), [=](double value) { return value >= least && value <= most; });
+	return finiteNumber(mrpt::format(" from %g to %g", least, most), [=](double value) { return value >= least && value <= most; });
 }
 
 CLI::Validator inside(double low, double high)
 {
-	return finiteNumber(" above " + textOf(low) + " and below " + textOf(high), [=](double value) { return value > low && value < high; });
+	return finiteNumber(mrpt::format(" above %g and below %g", low, high), [=](double value) { return value > low && value < high; });
 }
 
 CLI::Validator seed()

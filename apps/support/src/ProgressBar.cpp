@@ -1,5 +1,6 @@
 #include <viwo/app/Program.h>
 
+#include <mrpt/core/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -44,17 +45,13 @@ std::string ProgressBar::render(double fraction, double left_s, const std::strin
 	if (!std::isfinite(fraction)) fraction = 0;
 	fraction = std::clamp(fraction, 0.0, 1.0);
 	const int full = static_cast<int>(fraction * kCells);
-	char text[48];
-	std::snprintf(text, sizeof text, "] %3d%%  ", static_cast<int>(fraction * 100));
-	std::string line = "[" + std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kCells - full), '.') + text;
+	std::string line = "[" + std::string(static_cast<size_t>(full), '#') + std::string(static_cast<size_t>(kCells - full), '.') +
+	                   mrpt::format("] %3d%%  ", static_cast<int>(fraction * 100));
 	if (left_s >= 0)
 	{
 		const long seconds = std::lround(std::min(left_s, 359999.0));
-		if (seconds >= 3600)
-			std::snprintf(text, sizeof text, "%ld:%02ld:%02ld left", seconds / 3600, seconds / 60 % 60, seconds % 60);
-		else
-			std::snprintf(text, sizeof text, "%02ld:%02ld left", seconds / 60, seconds % 60);
-		line += text;
+		line += seconds >= 3600 ? mrpt::format("%ld:%02ld:%02ld left", seconds / 3600, seconds / 60 % 60, seconds % 60)
+		                        : mrpt::format("%02ld:%02ld left", seconds / 60, seconds % 60);
 	}
 	else
 		line += "--:-- left";

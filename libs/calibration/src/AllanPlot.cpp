@@ -1,8 +1,9 @@
 #include "AllanPlot.h"
 
+#include <mrpt/core/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "CurveFit.h"
@@ -54,18 +55,9 @@ std::string decadeText(int exponent)
 	return "10" + superscript(exponent);
 }
 
-std::string secondsText(int exponent)
-{
-	char text[32];
-	std::snprintf(text, sizeof text, "%g", std::pow(10.0, exponent));
-	return text;
-}
-
 std::string threeDigits(double value)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%#.3g", value);
-	return text;
+	return mrpt::format("%#.3g", value);
 }
 
 class Panel
@@ -124,7 +116,7 @@ class Panel
 		{
 			const double at = x_.place(std::pow(10, k));
 			lines += svgLine(at, kTop, at, kBottom);
-			labels += svgText(at, kBottom + 16, secondsText(k), "text-anchor=\"middle\"");
+			labels += svgText(at, kBottom + 16, mrpt::format("%g", std::pow(10.0, k)), "text-anchor=\"middle\"");
 		}
 		labels += svgText(left_ + kWidth / 2, kBottom + 34, "cluster time, s", "text-anchor=\"middle\"");
 		labels += svgText(left_, kTop - 10, first_ < 3 ? "accelerometer: Allan deviation, m/s²" : "gyroscope: Allan deviation, rad/s",

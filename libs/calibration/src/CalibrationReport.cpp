@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <viwo/calibration/CalibrationReport.h>
 #include <viwo/evaluation/Chart.h>
 #include <viwo/evaluation/Html.h>
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viwo
 {
@@ -14,11 +14,9 @@ namespace
 {
 std::string number(double value, int decimals)
 {
-	char text[64];
 	const double unit = std::pow(10.0, -decimals);
 	const bool is_zero = std::abs(value) < 0.5 * unit;  // not "-0.00"
-	std::snprintf(text, sizeof text, "%.*f", decimals, is_zero ? 0.0 : value);
-	return text;
+	return mrpt::format("%.*f", decimals, is_zero ? 0.0 : value);
 }
 
 /** As many decimals as the deviation fills with two digits. */

@@ -5,7 +5,6 @@
 #include <viwo/evaluation/Json.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "AllanPlot.h"
 
@@ -13,16 +12,9 @@ namespace viwo
 {
 namespace
 {
-std::string digits(double value, int count)
-{
-	char text[32];
-	std::snprintf(text, sizeof text, "%.*g", count, value);
-	return text;
-}
-
 std::string withDeviation(double value, double deviation)
 {
-	return digits(value, 3) + " +- " + digits(deviation, 1);
+	return significant(value, 3) + " +- " + significant(deviation, 1);
 }
 
 std::string textOf(const NoiseReading& r)
@@ -33,7 +25,7 @@ std::string textOf(const NoiseReading& r)
 std::string textOf(const BiasInstability& b)
 {
 	if (!(b.value > 0)) return "-";
-	return b.reached ? withDeviation(b.value, b.deviation) : "< " + digits(b.value + 2 * b.deviation, 2);
+	return b.reached ? withDeviation(b.value, b.deviation) : "< " + significant(b.value + 2 * b.deviation, 2);
 }
 
 /** As somebody would say it who is to record one. */
@@ -51,10 +43,10 @@ Table axesTable(const ImuNoiseResult& result, size_t first)
 		table.addRow({what + (", " + unit), of(first), of(first + 1), of(first + 2)});
 	};
 	const auto& axes = result.axes;
-	add("mean", u, [&](size_t axis) { return digits(result.mean[axis], 4); });
+	add("mean", u, [&](size_t axis) { return significant(result.mean[axis], 4); });
 	add("white noise N", u + "/sqrt(Hz)", [&](size_t axis) { return textOf(axes[axis].white); });
 	add("bias instability B", u, [&](size_t axis) { return textOf(axes[axis].instability); });
-	add("at the cluster time", "s", [&](size_t axis) { return digits(axes[axis].instability.tau_s, 2); });
+	add("at the cluster time", "s", [&](size_t axis) { return significant(axes[axis].instability.tau_s, 2); });
 	add("random walk K", first < 3 ? "m/s^3/sqrt(Hz)" : "rad/s^2/sqrt(Hz)", [&](size_t axis) { return textOf(axes[axis].walk); });
 	add("quantisation Q", u + "*s", [&](size_t axis) { return textOf(axes[axis].quantisation); });
 	return table;
@@ -62,8 +54,8 @@ Table axesTable(const ImuNoiseResult& result, size_t first)
 
 std::string logLine(const ImuNoiseResult& r)
 {
-	std::string line =
-	    r.imu_label + ": " + std::to_string(r.samples) + " samples over " + duration(r.duration_s) + " at " + digits(r.rate_hz, 4) + " Hz";
+	std::string line = r.imu_label + ": " + std::to_string(r.samples) + " samples over " + duration(r.duration_s) + " at " +
+	                   significant(r.rate_hz, 4) + " Hz";
 	if (r.lost > 0) line += ", " + std::to_string(r.lost) + " lost (longest gap " + fixed(r.longest_gap_s, 2) + " s)";
 	bool smoothed = false;
 	for (const NoiseModel& m : r.axes) smoothed = smoothed || m.smoothed;
@@ -74,10 +66,10 @@ std::string logLine(const ImuNoiseResult& r)
 std::string keyLine(const char* key, const WorstAxis& worst, const ImuNoiseResult& result)
 {
 	if (worst.reading.observed)
-		return std::string(key) + " = " + digits(worst.reading.value, 4) + " +- " + digits(worst.reading.deviation, 1) + " (" +
+		return std::string(key) + " = " + significant(worst.reading.value, 4) + " +- " + significant(worst.reading.deviation, 1) + " (" +
 		       imuAxisName(worst.axis) + ", the largest)";
 	return std::string(key) + ": not observed: log of " + duration(result.duration_s) + ", " +
-	       duration(result.axes[worst.axis].walk_needs_s) + " needed; below " + digits(worst.reading.limit, 2);
+	       duration(result.axes[worst.axis].walk_needs_s) + " needed; below " + significant(worst.reading.limit, 2);
 }
 
 std::vector<std::string> keyLines(const ImuNoiseResult& r)
@@ -196,8 +188,9 @@ void saveImuNoiseCsv(const std::string& path, const ImuNoiseResult& result)
 	              << "\naxis,tau_s,deviation,low,high,fitted,used\n";
 	for (size_t axis = 0; axis < kImuAxes; ++axis)
 		for (const FittedPoint& p : result.axes[axis].points)
-			file.stream() << imuAxisName(axis) << ',' << digits(p.point.tau_s, 7) << ',' << digits(p.point.deviation, 7) << ','
-			              << digits(p.low, 7) << ',' << digits(p.high, 7) << ',' << digits(p.model, 7) << ',' << (p.used ? 1 : 0) << '\n';
+			file.stream() << imuAxisName(axis) << ',' << significant(p.point.tau_s, 7) << ',' << significant(p.point.deviation, 7) << ','
+			              << significant(p.low, 7) << ',' << significant(p.high, 7) << ',' << significant(p.model, 7) << ','
+			              << (p.used ? 1 : 0) << '\n';
 	file.commit();
 }
 }  // namespace viwo

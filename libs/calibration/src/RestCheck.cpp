@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "Median.h"
@@ -23,13 +22,6 @@ constexpr size_t kSide = 4;          // blocks on each side of a step
 constexpr double kTrendShare = 0.9;  // of the variance of the means
 constexpr double kRepeatedShare = 0.3;
 constexpr double kFastestRest_rad_s = 0.1;
-
-std::string shortText(double value)
-{
-	char text[32];
-	std::snprintf(text, sizeof text, "%.3g", value);
-	return text;
-}
 
 /** Sample-wise, of one axis. */
 class AxisCheck
@@ -68,7 +60,7 @@ class AxisCheck
 			largest = std::max(largest, offsets[i]);
 		}
 		if (!steps.empty())
-			warnings.push_back(name_ + " steps by " + shortText(largest) + " " + unit_ + " at " + describeSpans(steps) +
+			warnings.push_back(name_ + " steps by " + significant(largest, 3) + " " + unit_ + " at " + describeSpans(steps) +
 			                   ": moved, or another temperature; choose a part without with --from and --to");
 	}
 
@@ -84,7 +76,7 @@ class AxisCheck
 			tt += (b.begin_s - t) * (b.begin_s - t), tx += (b.begin_s - t) * (b.value - x), xx += (b.value - x) * (b.value - x);
 		if (!(tx * tx > kTrendShare * tt * xx)) return;
 		const double change = tx / tt * (blocks.back().begin_s - blocks.front().begin_s);
-		warnings.push_back(name_ + " drifts by " + shortText(change) + " " + unit_ +
+		warnings.push_back(name_ + " drifts by " + significant(change, 3) + " " + unit_ +
 		                   " along the log: a sensor that warms up looks like this; let it reach its temperature before recording");
 	}
 
@@ -132,9 +124,9 @@ void checkUnits(const RestWindows& windows, std::vector<std::string>& warnings)
 	};
 	const double force = size(0), rate = size(3);
 	if (force < 9 || force > 10.6)
-		warnings.push_back("the specific force is " + shortText(force) +
+		warnings.push_back("the specific force is " + significant(force, 3) +
 		                   " m/s^2, that of gravity is 9.8: another unit, or not a three-axis accelerometer");
-	if (rate > kFastestRest_rad_s) warnings.push_back("the mean rate is " + shortText(rate) + " rad/s: it turns, or another unit");
+	if (rate > kFastestRest_rad_s) warnings.push_back("the mean rate is " + significant(rate, 3) + " rad/s: it turns, or another unit");
 }
 }  // namespace
 

@@ -1,16 +1,19 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/NumberText.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace viwo
 {
 std::string fixed(double value, int decimals)
 {
 	if (std::isnan(value)) return "-";
-	char text[64];
-	std::snprintf(text, sizeof text, "%.*f", decimals, value);
-	return text;
+	return mrpt::format("%.*f", decimals, value);
+}
+
+std::string significant(double value, int digits)
+{
+	return mrpt::format("%.*g", digits, value);
 }
 
 std::string counted(size_t number, const std::string& noun)

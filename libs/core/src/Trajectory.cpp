@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/PoseRows.h>
@@ -7,7 +8,6 @@
 #include <viwo/core/Trajectory.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace viwo
 {
@@ -45,17 +45,15 @@ void appendPose(const TextRows& rows, const StampedPose& pose, Trajectory& traje
 	trajectory.push_back(pose);
 }
 
+std::string poseRow(const Pose3& T)
+{
+	return mrpt::format("%.9f %.9f %.9f %.12f %.12f %.12f %.12f", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(), T.R.w());
+}
+
 void Trajectory::saveTum(const std::string& path) const
 {
 	AtomicFile file(path);
-	for (const auto& pose : poses_)
-	{
-		const auto& p = pose.T.p;
-		const auto& q = pose.T.R;
-		char text[256];
-		std::snprintf(text, sizeof text, " %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n", p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
-		file.stream() << formatSeconds(pose.t_ns) << text;
-	}
+	for (const auto& pose : poses_) file.stream() << formatSeconds(pose.t_ns) << " " << poseRow(pose.T) << "\n";
 	file.commit();
 }
 

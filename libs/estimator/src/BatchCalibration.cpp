@@ -9,12 +9,12 @@
 #include "calibration/RigPriors.h"
 #include "residuals/BlockAlgebra.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -117,13 +117,10 @@ class BatchRun
 		for (const BatchFactor& f : measurements_)
 			if (f.group == BatchGroup::image) ++sightings;
 		if (static_cast<double>(sightings) >= kFewest * static_cast<double>(s_.frames.size())) return true;
-		char text[200];
-		std::snprintf(
-		    text, sizeof text,
+		result_.problem = mrpt::format(
 		    "the images have %.1f usable tracks each, a calibration needs %.0f: drive where there is texture and light, and check the "
 		    "camera's calibration and mounting",
 		    static_cast<double>(sightings) / static_cast<double>(s_.frames.size()), kFewest);
-		result_.problem = text;
 		return false;
 	}
 
@@ -247,13 +244,10 @@ class BatchRun
 		const double duration_s = secondsBetween(s_.frames.front().t_ns, s_.frames.back().t_ns);
 		if (result_.slip_s <= options_.slip_share * duration_s) return;
 		const auto first = static_cast<size_t>(std::find(slipping_.begin(), slipping_.end(), true) - slipping_.begin());
-		char text[300];
-		std::snprintf(
-		    text, sizeof text,
+		result_.problem = mrpt::format(
 		    "the wheels contradict camera and IMU for %.1f of %.1f s, first %.1f s after the first image: they slip, or the start is "
 		    "too far off; drive more gently on firm ground, or measure the mountings",
 		    result_.slip_s, duration_s, secondsBetween(s_.frames.front().t_ns, s_.frames[first].t_ns));
-		result_.problem = text;
 	}
 
 	/** What was not observed stays what it was, to the last digit. */
@@ -270,28 +264,28 @@ class BatchRun
 
 	void addNotes()
 	{
-		const auto note = [&](const char* format, auto... values)
-		{
-			char text[300];
-			std::snprintf(text, sizeof text, format, values...);
-			result_.notes.emplace_back(text);
-		};
+		std::vector<std::string>& notes = result_.notes;
 		constexpr double kFar = 3;
 		const RigVector moved = rigDifference(result_.rig, in_.start);
 		for (int i = 0; i < RigOrder::size; ++i)
 			if (result_.observed[i] && std::abs(moved[i]) > kFar * result_.prior_deviations[i])
-				note("%s is %.1f times as far from the start as [calibration] expects: check it by hand%s",
-				     RigOrder::names()[static_cast<size_t>(i)].c_str(), std::abs(moved[i]) / result_.prior_deviations[i],
-				     isOfCamera(i) ? ", and the lens, whose errors it takes up" : "");
+				notes.push_back(mrpt::format("%s is %.1f times as far from the start as [calibration] expects: check it by hand%s",
+				                             RigOrder::names()[static_cast<size_t>(i)].c_str(),
+				                             std::abs(moved[i]) / result_.prior_deviations[i],
+				                             isOfCamera(i) ? ", and the lens, whose errors it takes up" : ""));
 		constexpr double kBlurred_px = 0.8;
 		if (result_.pixel_sigma_px > kBlurred_px)
-			note("corners are off by %.2f px, usual is 0.3 to 0.5: lens calibration, mounting of the camera or its resolution may be wrong",
-			     result_.pixel_sigma_px);
+			notes.push_back(mrpt::format(
+			    "corners are off by %.2f px, usual is 0.3 to 0.5: lens calibration, mounting of the camera or its resolution may be wrong",
+			    result_.pixel_sigma_px));
 		constexpr double kNoisy = 3;
 		if (result_.wheel_noise_ratio > kNoisy)
-			note("the wheels are %.1f times as noisy as [noise] says: they slip, or IMU and camera are mounted otherwise than was found",
-			     result_.wheel_noise_ratio);
-		if (!settled_) note("it has not settled in %d rounds: the deviations may be too small; raise max_rounds", result_.rounds);
+			notes.push_back(mrpt::format(
+			    "the wheels are %.1f times as noisy as [noise] says: they slip, or IMU and camera are mounted otherwise than was found",
+			    result_.wheel_noise_ratio));
+		if (!settled_)
+			notes.push_back(
+			    mrpt::format("it has not settled in %d rounds: the deviations may be too small; raise max_rounds", result_.rounds));
 	}
 
 	static constexpr double kCoarseSigma_px = 3, kCoarseOutlier_px = 30, kLeastSigma_px = 0.05, kLargestTrackFactor = 25;

@@ -1,9 +1,9 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/evaluation/Json.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -17,9 +17,7 @@ Json rounded(const Json& json)
 	{
 		const double value = json.get<double>();
 		if (!std::isfinite(value)) return nullptr;
-		char text[32];
-		std::snprintf(text, sizeof text, "%.9g", value);
-		return std::strtod(text, nullptr);
+		return std::strtod(mrpt::format("%.9g", value).c_str(), nullptr);
 	}
 	Json copy = json;
 	if (json.is_structured())

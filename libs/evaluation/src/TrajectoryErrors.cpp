@@ -1,12 +1,12 @@
 #include "RelativeErrors.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/Time.h>
 #include <viwo/evaluation/TrajectoryErrors.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viwo
 {
@@ -14,10 +14,8 @@ namespace
 {
 std::string spanText(const Trajectory& trajectory)
 {
-	char text[96];
-	std::snprintf(text, sizeof text, "%.3f to %.3f s", static_cast<double>(trajectory.poses().front().t_ns) / kNanosecondsPerSecond,
-	              static_cast<double>(trajectory.poses().back().t_ns) / kNanosecondsPerSecond);
-	return text;
+	return mrpt::format("%.3f to %.3f s", static_cast<double>(trajectory.poses().front().t_ns) / kNanosecondsPerSecond,
+	                    static_cast<double>(trajectory.poses().back().t_ns) / kNanosecondsPerSecond);
 }
 
 void requireMatches(const Trajectory& reference, const Trajectory& estimate, size_t matched, double max_gap_s)
@@ -30,11 +28,9 @@ void requireMatches(const Trajectory& reference, const Trajectory& estimate, siz
 	if (est.back().t_ns < ref.front().t_ns || est.front().t_ns > ref.back().t_ns)
 		throw Error("no overlap in time: the reference spans " + spanText(reference) + ", the estimate " + spanText(estimate) +
 		            "; check that both use the same clock");
-	char text[160];
-	std::snprintf(text, sizeof text,
-	              "only %zu pose(s) of the estimate can be matched, since the reference has gaps longer than %g s; allow longer ones",
-	              matched, max_gap_s);
-	throw Error(text);
+	throw Error(
+	    mrpt::format("only %zu pose(s) of the estimate can be matched, since the reference has gaps longer than %g s; allow longer ones",
+	                 matched, max_gap_s));
 }
 
 void absoluteErrors(const std::vector<MatchedPose>& matches, TrajectoryErrors& errors)

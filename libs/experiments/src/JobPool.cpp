@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <mrpt/core/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -290,13 +291,10 @@ std::string toLine(const JobReport& report)
 	const auto clock = [](double seconds)
 	{
 		const int whole_s = static_cast<int>(seconds);
-		char text[32];
-		std::snprintf(text, sizeof text, "%02d:%02d", whole_s / 60, whole_s % 60);
-		return std::string(text);
+		return mrpt::format("%02d:%02d", whole_s / 60, whole_s % 60);
 	};
-	char took[32];
-	std::snprintf(took, sizeof took, " (%.1f s)", report.took_s);
 	return "[" + std::to_string(report.done) + "/" + std::to_string(report.total) + "] " + clock(report.elapsed_s) + ", " +
-	       clock(report.left_s) + " left" + "  " + report.label + took + (report.error.empty() ? "" : "  FAILED: " + report.error);
+	       clock(report.left_s) + " left" + "  " + report.label + mrpt::format(" (%.1f s)", report.took_s) +
+	       (report.error.empty() ? "" : "  FAILED: " + report.error);
 }
 }  // namespace viwo::experiments

@@ -1,8 +1,8 @@
 #include "TextFiles.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -33,8 +33,6 @@ std::string hashOf(const std::string& content)
 {
 	uint64_t hash = 0xcbf29ce484222325ULL;
 	for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-	char word[20];
-	std::snprintf(word, sizeof word, "%016llx", static_cast<unsigned long long>(hash));
-	return word;
+	return mrpt::format("%016llx", static_cast<unsigned long long>(hash));
 }
 }  // namespace viwo::experiments

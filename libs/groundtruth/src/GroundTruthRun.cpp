@@ -3,13 +3,13 @@
 #include "StagedFolder.h"
 #include "TrajectoryFiles.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 #include <viwo/groundtruth/GroundTruthRun.h>
 
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 
 namespace viwo::gt
@@ -60,10 +60,8 @@ void noteContradictions(const Session& session, const Solution& solution, std::v
 		worst_deg = std::max(worst_deg, degrees);
 	}
 	if (count == 0) return;
-	char text[160];
-	std::snprintf(text, sizeof text, "odometry jumped %zu times against the scans, by up to %.2f m and %.0f deg: the scans were believed",
-	              count, worst_m, worst_deg);
-	notes.push_back(text);
+	notes.push_back(mrpt::format("odometry jumped %zu times against the scans, by up to %.2f m and %.0f deg: the scans were believed",
+	                             count, worst_m, worst_deg));
 }
 
 /** Wheels that spin; or what goes along with the robot, and holds the scans where they are. */
@@ -81,12 +79,10 @@ void noteStandstill(const Session& session, const Solution& solution, std::vecto
 		if (between(solution.poses[a].T, solution.poses[b].T).p.norm() < 0.5 * between(*from, *to).p.norm()) still_s += dt_s;
 	}
 	if (still_s < kLeastStill_s || still_s < kLeastStillShare * moving_s) return;
-	char text[200];
-	std::snprintf(text, sizeof text,
-	              "for %.0f of %.0f s odometry moved and the scans hardly: wheels that spin, or parts of the robot before the lidar (mask "
-	              "them: [scan])",
-	              still_s, moving_s);
-	notes.push_back(text);
+	notes.push_back(mrpt::format(
+	    "for %.0f of %.0f s odometry moved and the scans hardly: wheels that spin, or parts of the robot before the lidar (mask "
+	    "them: [scan])",
+	    still_s, moving_s));
 }
 
 void count(const Session& session, const Solution& solution, GroundTruthRunResult& result)

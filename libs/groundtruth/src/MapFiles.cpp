@@ -1,12 +1,12 @@
 #include "MapFiles.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/mapping/MapPlot.h>
 #include <viwo/mapping/ScanMap.h>
 #include <viwo/rawlog/ObjectFile.h>
 #include <viwo/rawlog/RawlogWriter.h>
 
-#include <cstdio>
 #include <limits>
 
 namespace viwo::gt
@@ -65,10 +65,8 @@ void checkSize(const std::vector<FinalPose>& poses, double resolution_m)
 	}
 	const Eigen::Vector2d size_m = max - min;
 	if (size_m.allFinite() && size_m.prod() < kMostCells * resolution_m * resolution_m) return;
-	char text[200];
-	std::snprintf(text, sizeof text, "the way covers %.3g x %.3g m, too much for a map in cells of %g m: choose a coarser --resolution",
-	              size_m.x(), size_m.y(), resolution_m);
-	throw Error(text);
+	throw Error(mrpt::format("the way covers %.3g x %.3g m, too much for a map in cells of %g m: choose a coarser --resolution", size_m.x(),
+	                         size_m.y(), resolution_m));
 }
 }  // namespace
 

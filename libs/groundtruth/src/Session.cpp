@@ -4,6 +4,7 @@
 #include "OdometryTrack.h"
 #include "RangeNoise.h"
 
+#include <mrpt/core/format.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -183,29 +183,20 @@ void addGapNote(Session& session)
 		longest_s = std::max(longest_s, gap_s);
 	}
 	if (gaps == 0) return;
-	char text[160];
-	std::snprintf(text, sizeof text, "%zu times no scan for more than %g s, at most for %.1f s: %s", gaps, kScanGap_s, longest_s,
-	              session.has_odometry ? "odometry leads across" : "nothing leads across");
-	session.notes.push_back(text);
+	session.notes.push_back(mrpt::format("%zu times no scan for more than %g s, at most for %.1f s: %s", gaps, kScanGap_s, longest_s,
+	                                     session.has_odometry ? "odometry leads across" : "nothing leads across"));
 }
 
 void addOdometryNotes(const OdometryTrack& odometry, Session& session)
 {
-	char text[240];
 	if (odometry.useless())
-	{
-		std::snprintf(text, sizeof text,
-		              "odometry is not used: most of its steps (%zu, up to %.3g m and %.0f deg) are none that a robot drives",
-		              odometry.jumps(), odometry.largestJump_m(), odometry.largestJump_rad() / kDegree);
-		session.notes.push_back(text);
-	}
+		session.notes.push_back(
+		    mrpt::format("odometry is not used: most of its steps (%zu, up to %.3g m and %.0f deg) are none that a robot drives",
+		                 odometry.jumps(), odometry.largestJump_m(), odometry.largestJump_rad() / kDegree));
 	else if (odometry.jumps() > 0)
-	{
-		std::snprintf(text, sizeof text,
-		              "odometry leapt %zu times as no robot drives, by up to %.3g m and %.0f deg: these steps were left out",
-		              odometry.jumps(), odometry.largestJump_m(), odometry.largestJump_rad() / kDegree);
-		session.notes.push_back(text);
-	}
+		session.notes.push_back(
+		    mrpt::format("odometry leapt %zu times as no robot drives, by up to %.3g m and %.0f deg: these steps were left out",
+		                 odometry.jumps(), odometry.largestJump_m(), odometry.largestJump_rad() / kDegree));
 	if (!session.has_odometry) session.notes.push_back("no odometry: the guess for each scan is that of constant velocity");
 }
 

@@ -1,10 +1,9 @@
 #include "TrajectoryFiles.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/TimeText.h>
 #include <viwo/core/Trajectory.h>
-
-#include <cstdio>
 
 namespace viwo::gt
 {
@@ -19,10 +18,7 @@ std::string covarianceCells(const Eigen::Matrix3d& covariance)
 		for (int j = i; j < 6; ++j)
 		{
 			cells += ",";
-			if (planar[i] < 0 || planar[j] < 0) continue;
-			char text[32];
-			std::snprintf(text, sizeof text, "%.6e", covariance(planar[i], planar[j]));
-			cells += text;
+			if (planar[i] >= 0 && planar[j] >= 0) cells += mrpt::format("%.6e", covariance(planar[i], planar[j]));
 		}
 	return cells;
 }
@@ -61,27 +57,21 @@ void writeGraph(const std::string& dir, const Session& session, const KeyScans& 
 {
 	AtomicFile graph(dir + "/graph.g2o"), stamps(dir + "/graph_stamps.csv");
 	stamps.stream() << "id,t_ns\n";
-	char text[256];
 	for (size_t k = 0; k < keys.size(); ++k)
 	{
 		const Pose2& T = keys.poses[k];
-		std::snprintf(text, sizeof text, "VERTEX_SE2 %zu %.9f %.9f %.9f\n", keys.scan[k], T.p.x(), T.p.y(), T.yaw);
-		graph.stream() << text;
+		graph.stream() << mrpt::format("VERTEX_SE2 %zu %.9f %.9f %.9f\n", keys.scan[k], T.p.x(), T.p.y(), T.yaw);
 		stamps.stream() << keys.scan[k] << "," << session.scans[keys.scan[k]].t_ns << "\n";
 	}
 	for (const GraphEdge& e : edges)
 	{
 		const Eigen::Matrix3d I = gyro.turns.empty() ? e.information : informationOfMany(e);
-		std::snprintf(text, sizeof text, "EDGE_SE2 %zu %zu %.9f %.9f %.9f %.6g %.6g %.6g %.6g %.6g %.6g\n", keys.scan[e.a], keys.scan[e.b],
-		              e.T_ab.p.x(), e.T_ab.p.y(), e.T_ab.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
-		graph.stream() << text;
+		graph.stream() << mrpt::format("EDGE_SE2 %zu %zu %.9f %.9f %.9f %.6g %.6g %.6g %.6g %.6g %.6g\n", keys.scan[e.a], keys.scan[e.b],
+		                               e.T_ab.p.x(), e.T_ab.p.y(), e.T_ab.yaw, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2));
 	}
 	for (const GyroTurn& turn : gyro.turns)
-	{
-		std::snprintf(text, sizeof text, "EDGE_SE2 %zu %zu 0 0 %.9f 0 0 0 0 0 %.6g\n", keys.scan[turn.a], keys.scan[turn.b],
-		              wrapped(turn.turn_rad - gyro.biases_rad_s[turn.bias] * turn.dt_s), turn.information);
-		graph.stream() << text;
-	}
+		graph.stream() << mrpt::format("EDGE_SE2 %zu %zu 0 0 %.9f 0 0 0 0 0 %.6g\n", keys.scan[turn.a], keys.scan[turn.b],
+		                               wrapped(turn.turn_rad - gyro.biases_rad_s[turn.bias] * turn.dt_s), turn.information);
 	graph.commit();
 	stamps.commit();
 }

@@ -2,6 +2,7 @@
 
 #include "RosInstance.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/NumberText.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace viwo
@@ -33,14 +33,6 @@ Trajectory trajectoryOf(std::vector<StampedPose> poses)
 	for (const StampedPose& pose : poses)
 		if (trajectory.empty() || pose.t_ns > trajectory.poses().back().t_ns) trajectory.push_back(pose);
 	return trajectory;
-}
-
-template <class... Values>
-std::string text(const char* pattern, Values... values)
-{
-	char buffer[400];
-	std::snprintf(buffer, sizeof buffer, pattern, values...);
-	return buffer;
 }
 }  // namespace
 
@@ -228,14 +220,14 @@ void RosBagImport::addNotes()
 		                        " that came after one with a later stamp");
 	if (order_.late() > 0)
 		result_.notes.push_back(
-		    text("out of order, as more than %.0f s late: %s: does a sensor have another clock? --record-time takes the recorder's",
-		         kReorder_s, counted(order_.late(), "observation").c_str()));
+		    mrpt::format("out of order, as more than %.0f s late: %s: does a sensor have another clock? --record-time takes the recorder's",
+		                 kReorder_s, counted(order_.late(), "observation").c_str()));
 	if (gps_origin_)
 		result_.notes.push_back(
-		    text("%s: positions of the antenna (not of O, and without an attitude), east-north-up of the first fix at %.8f "
-		         "%.8f deg, %.3f m; with a fix: %zu of %s",
-		         result_.gps_path.c_str(), gps_origin_->latitude_deg, gps_origin_->longitude_deg, gps_origin_->altitude_m, gps_.size(),
-		         counted(result_.gps_fixes, "message").c_str()));
+		    mrpt::format("%s: positions of the antenna (not of O, and without an attitude), east-north-up of the first fix at %.8f "
+		                 "%.8f deg, %.3f m; with a fix: %zu of %s",
+		                 result_.gps_path.c_str(), gps_origin_->latitude_deg, gps_origin_->longitude_deg, gps_origin_->altitude_m,
+		                 gps_.size(), counted(result_.gps_fixes, "message").c_str()));
 }
 
 void RosBagImport::addNotesOf(const RosSource& source, const Tally& tally)
@@ -243,28 +235,30 @@ void RosBagImport::addNotesOf(const RosSource& source, const Tally& tally)
 	const char* label = source.mapping.label.c_str();
 	const auto note = [this](const std::string& line) { result_.notes.push_back(line); };
 	if (tally.without_stamp > 0)
-		note(text("%s: without a stamp: %zu of %zu headers; the time of recording was taken", label, tally.without_stamp, tally.messages));
+		note(mrpt::format("%s: without a stamp: %zu of %zu headers; the time of recording was taken", label, tally.without_stamp,
+		                  tally.messages));
 	if (tally.same_stamp > 0)
-		note(text("%s: left out: %s with the stamp of another one", label, counted(tally.same_stamp, "picture").c_str()));
+		note(mrpt::format("%s: left out: %s with the stamp of another one", label, counted(tally.same_stamp, "picture").c_str()));
 	if (isOdometryType(source.type) && !tally.moves && tally.first_to_last_m > 0)
-		note(text("%s: all twists are zero, but the pose moves: use odometry_source = pose", label));
+		note(mrpt::format("%s: all twists are zero, but the pose moves: use odometry_source = pose", label));
 	if (source.placed)
 	{
 		const auto motion = found_.frames().motionBetween(found_.baseFrame(), source.frame);
 		if (!source.mapping.sensorPose() && (motion.translation_m > 1e-3 || motion.rotation_rad > 1e-3))
-			note(text("%s: tf moves it on the vehicle, by %.3f m and %.2f deg; its first pose was taken", label, motion.translation_m,
-			          motion.rotation_rad / kDegree));
+			note(mrpt::format("%s: tf moves it on the vehicle, by %.3f m and %.2f deg; its first pose was taken", label,
+			                  motion.translation_m, motion.rotation_rad / kDegree));
 	}
 	if (source.type != "sensor_msgs/Imu") return;
 	if (tally.not_finite > 0)
-		note(text("%s: not finite: %zu of %zu samples; viwo-odometry will leave them out", label, tally.not_finite, tally.messages));
+		note(
+		    mrpt::format("%s: not finite: %zu of %zu samples; viwo-odometry will leave them out", label, tally.not_finite, tally.messages));
 	if (tally.not_finite == tally.messages) return;
 	const Eigen::Vector3d force_O = tally.force_sum_O / static_cast<double>(tally.messages - tally.not_finite);
 	const double tilt_rad = std::acos(std::clamp(force_O.normalized().z(), -1.0, 1.0));
 	if (force_O.norm() < 9 || force_O.norm() > 10.6)
-		note(text("%s: the mean specific force is %.3f m/s^2, not 9.8: %s", label, force_O.norm(),
-		          force_O.norm() < 2 ? "in units of g, or gravity was taken off?" : "another unit?"));
+		note(mrpt::format("%s: the mean specific force is %.3f m/s^2, not 9.8: %s", label, force_O.norm(),
+		                  force_O.norm() < 2 ? "in units of g, or gravity was taken off?" : "another unit?"));
 	else if (tilt_rad > 20 * kDegree)
-		note(text("%s: with its pose, gravity is %.0f deg from O's vertical: check that pose", label, tilt_rad / kDegree));
+		note(mrpt::format("%s: with its pose, gravity is %.0f deg from O's vertical: check that pose", label, tilt_rad / kDegree));
 }
 }  // namespace viwo

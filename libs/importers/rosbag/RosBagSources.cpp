@@ -3,12 +3,12 @@
 #include "RosInstance.h"
 #include "RosWheels.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Joined.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace viwo
 {
@@ -29,10 +29,8 @@ std::vector<double> yawPitchRoll_deg(const Eigen::Quaterniond& R_OS)
 std::string poseText(const Pose3& T)
 {
 	const std::vector<double> angles_deg = yawPitchRoll_deg(T.R);
-	char text[200];
-	std::snprintf(text, sizeof text, "position_m = %.4g %.4g %.4g, yaw_pitch_roll_deg = %.4g %.4g %.4g", T.p.x() + 0, T.p.y() + 0,
-	              T.p.z() + 0, angles_deg[0], angles_deg[1], angles_deg[2]);
-	return text;
+	return mrpt::format("position_m = %.4g %.4g %.4g, yaw_pitch_roll_deg = %.4g %.4g %.4g", T.p.x() + 0, T.p.y() + 0, T.p.z() + 0,
+	                    angles_deg[0], angles_deg[1], angles_deg[2]);
 }
 
 std::string typeOf(const std::vector<RosTopic>& topics, const std::string& name)
@@ -249,20 +247,14 @@ void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 	source.T_OS.R = axes->R_OB;
 	source.mapping.position_m = {0, 0, 0};
 	source.mapping.yaw_pitch_roll_deg = yawPitchRoll_deg(source.T_OS.R);
-	char text[300];
-	std::snprintf(text, sizeof text, "specific force (%.2f, %.2f, %.2f) m/s^2, %.1f deg from an axis; ", axes->mean_force_B_m_s2.x(),
-	              axes->mean_force_B_m_s2.y(), axes->mean_force_B_m_s2.z(), axes->tilt_rad / kDegree);
-	std::string note = source.mapping.label + ": " + whyNotPlaced(source) + "; by its mean " + text;
-	if (axes->forward_correlation)
-		std::snprintf(text, sizeof text, "forward by the odometry's accelerations (correlation %.2f)", *axes->forward_correlation);
-	else
-		std::snprintf(text, sizeof text, "forward is a guess (no odometry that tells)");
-	note += text;
-	if (axes->yaw_rate_correlation)
-	{
-		std::snprintf(text, sizeof text, ", yaw rates agree by %.2f", *axes->yaw_rate_correlation);
-		note += text;
-	}
+	const Eigen::Vector3d& force_B = axes->mean_force_B_m_s2;
+	std::string note = source.mapping.label + ": " + whyNotPlaced(source);
+	note += mrpt::format("; by its mean specific force (%.2f, %.2f, %.2f) m/s^2, %.1f deg from an axis; ", force_B.x(), force_B.y(),
+	                     force_B.z(), axes->tilt_rad / kDegree);
+	note += axes->forward_correlation
+	            ? mrpt::format("forward by the odometry's accelerations (correlation %.2f)", *axes->forward_correlation)
+	            : "forward is a guess (no odometry that tells)";
+	if (axes->yaw_rate_correlation) note += mrpt::format(", yaw rates agree by %.2f", *axes->yaw_rate_correlation);
 	notes_.push_back(note + ": " + poseText(source.T_OS) + "; its place is unknown, give it in a --map");
 }
 }  // namespace viwo

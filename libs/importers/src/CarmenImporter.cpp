@@ -1,6 +1,7 @@
 #include "CarmenLog.h"
 #include "StampRepair.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/NumberText.h>
@@ -10,7 +11,6 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 namespace viwo
@@ -44,11 +44,9 @@ std::vector<int64_t> stampsOf(const std::vector<Item>& items)
 
 std::string repairNote(const std::string& what, const RepairedStamps& stamps)
 {
-	char text[256];
-	std::snprintf(text, sizeof text, "stamps of %s run back %s; moved, by up to %.3f s, to keep the order of the file: %zu of %zu",
-	              what.c_str(), counted(stamps.backwards, "time").c_str(), static_cast<double>(stamps.largest_change_ns) * 1e-9,
-	              stamps.changed, stamps.t_ns.size());
-	return text;
+	return mrpt::format("stamps of %s run back %s; moved, by up to %.3f s, to keep the order of the file: %zu of %zu", what.c_str(),
+	                    counted(stamps.backwards, "time").c_str(), static_cast<double>(stamps.largest_change_ns) * 1e-9, stamps.changed,
+	                    stamps.t_ns.size());
 }
 
 std::string stampsPath(const std::string& rawlog_path)

@@ -1,7 +1,8 @@
 #include "ImuNoise.h"
 
+#include <mrpt/core/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "YamlMap.h"
 
@@ -10,14 +11,11 @@ namespace viwo
 std::string doubtOnNoise(const std::string& where, double density, double least, double most, double rate_hz)
 {
 	if (density >= least && density <= most) return {};
-	char text[320];
 	const double as_density = rate_hz > 0 ? density / std::sqrt(rate_hz) : 0;
 	if (density > most && as_density >= least && as_density <= most)
-		std::snprintf(text, sizeof text, " = %g looks like the deviation of single samples; as a density at %g Hz it would be %.3g",
-		              density, rate_hz, as_density);
-	else
-		std::snprintf(text, sizeof text, " = %g is not what an IMU has (%g to %g); check its unit", density, least, most);
-	return where + text;
+		return where + mrpt::format(" = %g looks like the deviation of single samples; as a density at %g Hz it would be %.3g", density,
+		                            rate_hz, as_density);
+	return where + mrpt::format(" = %g is not what an IMU has (%g to %g); check its unit", density, least, most);
 }
 
 RigImu readKalibrImu(const std::string& path, std::vector<std::string>& warnings)

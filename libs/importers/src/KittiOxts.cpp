@@ -2,6 +2,7 @@
 
 #include "CsvFile.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/NumberText.h>
 #include <viwo/core/Scalars.h>
@@ -9,7 +10,6 @@
 #include <viwo/core/TimeText.h>
 
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -57,9 +57,7 @@ std::vector<KittiFrame> readKittiFrames(const std::string& folder, const std::st
 		while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
 		if (line.empty()) continue;
 		const std::string where = list + ":" + std::to_string(line_number + 1);
-		char name[40];
-		std::snprintf(name, sizeof name, "%010zu.", line_number);
-		const fs::path path = fs::path(folder) / "data" / (name + extension);
+		const fs::path path = fs::path(folder) / "data" / (mrpt::format("%010zu.", line_number) + extension);
 		const int64_t t_ns = parseDateTime(line, where);
 		std::error_code ignored;
 		if (!fs::is_regular_file(path, ignored))

@@ -1,9 +1,9 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
 #include <viwo/importers/RecordingInfo.h>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace viwo
 {
@@ -65,7 +65,6 @@ std::string verdict(const RecordingInfo& info, const Use& use)
 
 std::string describeRecording(const RecordingInfo& info)
 {
-	char line[400];
 	std::string text = info.path + ": " + info.kind + "\n";
 	int64_t first_ns = 0, last_ns = 0;
 	size_t width = 5, type_width = 5;
@@ -75,29 +74,23 @@ std::string describeRecording(const RecordingInfo& info)
 		first_ns = first_ns == 0 ? stream.first_t_ns : std::min(first_ns, stream.first_t_ns);
 		last_ns = std::max(last_ns, stream.last_t_ns);
 	}
-	std::snprintf(line, sizeof line, "from %s to %s s: %.3f s\n\n", formatSeconds(first_ns).c_str(), formatSeconds(last_ns).c_str(),
-	              secondsBetween(first_ns, last_ns));
-	text += line;
-	std::snprintf(line, sizeof line, "%-*s  %-*s  %8s  %8s  %9s  %9s  %9s  %9s  %9s\n", static_cast<int>(width), "name",
-	              static_cast<int>(type_width), "type", "count", "rate Hz", "jitter ms", "gap s", "back", "from s", "to s");
-	text += line;
+	text += mrpt::format("from %s to %s s: %.3f s\n\n", formatSeconds(first_ns).c_str(), formatSeconds(last_ns).c_str(),
+	                     secondsBetween(first_ns, last_ns));
+	text += mrpt::format("%-*s  %-*s  %8s  %8s  %9s  %9s  %9s  %9s  %9s\n", static_cast<int>(width), "name", static_cast<int>(type_width),
+	                     "type", "count", "rate Hz", "jitter ms", "gap s", "back", "from s", "to s");
 	for (const StreamInfo& stream : info.streams)
 	{
-		std::snprintf(line, sizeof line, "%-*s  %-*s  %8zu  %8.2f  %9.3f  %9.3f  %9zu  %9.3f  %9.3f\n", static_cast<int>(width),
-		              stream.name.c_str(), static_cast<int>(type_width), stream.type.c_str(), stream.count, stream.rate_hz,
-		              stream.jitter_s * 1e3, stream.largest_gap_s, stream.backwards, secondsBetween(first_ns, stream.first_t_ns),
-		              secondsBetween(first_ns, stream.last_t_ns));
-		text += line;
+		text += mrpt::format("%-*s  %-*s  %8zu  %8.2f  %9.3f  %9.3f  %9zu  %9.3f  %9.3f\n", static_cast<int>(width), stream.name.c_str(),
+		                     static_cast<int>(type_width), stream.type.c_str(), stream.count, stream.rate_hz, stream.jitter_s * 1e3,
+		                     stream.largest_gap_s, stream.backwards, secondsBetween(first_ns, stream.first_t_ns),
+		                     secondsBetween(first_ns, stream.last_t_ns));
 	}
 	text += "\nsuffices for\n";
 	using Role = SensorRole;
 	for (const Use& use :
 	     {Use{"--mode wheel", {Role::wheels}}, Use{"--mode wio", {Role::wheels, Role::imu}}, Use{"--mode vio", {Role::camera, Role::imu}},
 	      Use{"--mode viwo", {Role::camera, Role::imu, Role::wheels}}, Use{"viwo-groundtruth", {Role::lidar, Role::wheels}}})
-	{
-		std::snprintf(line, sizeof line, "  %-16s  %s\n", use.name, verdict(info, use).c_str());
-		text += line;
-	}
+		text += mrpt::format("  %-16s  %s\n", use.name, verdict(info, use).c_str());
 	for (const std::string& note : info.notes) text += "note: " + note + "\n";
 	return text;
 }

@@ -1,10 +1,10 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
 #include <viwo/mapping/Landmarks.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -93,12 +93,7 @@ void saveLandmarks(const std::string& path, const std::vector<Landmark>& landmar
 		    << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z depth_deviation id\nSIZE 4 4 4 4 4\nTYPE F F F F U\n"
 		    << "COUNT 1 1 1 1 1\nWIDTH " << count << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << count << "\nDATA ascii\n";
 	for (const Landmark& l : landmarks)
-	{
-		char text[160];
-		std::snprintf(text, sizeof text, "%.4f %.4f %.4f %.4f %llu\n", l.p_W.x(), l.p_W.y(), l.p_W.z(), l.depth_deviation,
-		              static_cast<unsigned long long>(l.id));
-		file.stream() << text;
-	}
+		file.stream() << mrpt::format("%.4f %.4f %.4f %.4f ", l.p_W.x(), l.p_W.y(), l.p_W.z(), l.depth_deviation) << l.id << "\n";
 	file.commit();
 }
 

@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/Svg.h>
@@ -6,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "PlotCanvas.h"
@@ -42,11 +42,8 @@ Bounds boundsOf(const MapPlot& plot)
 		{
 			if (!p.allFinite()) continue;
 			if (p.cwiseAbs().maxCoeff() > kFarthest_m)
-			{
-				char text[100];
-				std::snprintf(text, sizeof text, ": x = %.4g m, y = %.4g m cannot be drawn; correct the file", p.x(), p.y());
-				throw Error((layer.file.empty() ? layer.name : layer.file) + text);
-			}
+				throw Error((layer.file.empty() ? layer.name : layer.file) +
+				            mrpt::format(": x = %.4g m, y = %.4g m cannot be drawn; correct the file", p.x(), p.y()));
 			bounds.extend(p);
 		}
 	if (bounds.isEmpty()) throw Error("nothing to draw: map and trajectories are empty");

@@ -1,9 +1,9 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/Error.h>
 #include <viwo/mapping/OccupancyImage.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -63,14 +63,13 @@ void saveMapServer(const std::string& yaml_path, const OccupancyImage& image)
 	AtomicFile pgm(pgm_path.string());
 	pgm.stream() << "P5\n" << image.columns << " " << image.rows << "\n255\n";
 	pgm.stream().write(reinterpret_cast<const char*>(image.cells.data()), static_cast<std::streamsize>(image.cells.size()));
-	char text[512];
-	std::snprintf(text, sizeof text,
-	              "mode: trinary\nresolution: %.6f\norigin: [%.6f, %.6f, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-	              image.resolution_m, image.min_x_m, image.min_y_m);
+	const std::string keys =
+	    mrpt::format("mode: trinary\nresolution: %.6f\norigin: [%.6f, %.6f, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+	                 image.resolution_m, image.min_x_m, image.min_y_m);
 	AtomicFile yaml(yaml_path);
 	const std::string name = pgm_path.filename().string();
 	const bool plain = name.find_first_not_of(kPlainCharacters) == std::string::npos;
-	yaml.stream() << "image: " << (plain ? name : "\"" + name + "\"") << "\n" << text;
+	yaml.stream() << "image: " << (plain ? name : "\"" + name + "\"") << "\n" << keys;
 	commitTogether({&pgm, &yaml});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/mapping/RayScan.h>
 
@@ -26,10 +27,9 @@ class ScanGraphLog
    private:
 	void line(const char* before, const octomap::point3d& p, const char* after)
 	{
-		char text[128];
-		std::snprintf(text, sizeof text, "%s%.9g %.9g %.9g%s", before, static_cast<double>(p.x()), static_cast<double>(p.y()),
-		              static_cast<double>(p.z()), after);
-		file_.stream() << text;
+		file_.stream() << before
+		               << mrpt::format("%.9g %.9g %.9g", static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z()))
+		               << after;
 	}
 
 	AtomicFile file_;

@@ -1,6 +1,5 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/Svg.h>
-
-#include <cstdio>
 
 #include "PlotCanvas.h"
 
@@ -23,9 +22,7 @@ std::string base64(const std::string& bytes)
 
 std::string hex(PlotColour c)
 {
-	char text[8];
-	std::snprintf(text, sizeof text, "#%02x%02x%02x", c.red, c.green, c.blue);
-	return text;
+	return mrpt::format("#%02x%02x%02x", c.red, c.green, c.blue);
 }
 
 class SvgCanvas : public PlotCanvas

@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/AtomicFile.h>
 #include <viwo/core/CsvTable.h>
 #include <viwo/core/Error.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 
@@ -103,22 +103,14 @@ Trajectory loadG2o(const std::string& path, const std::string& stamps_path)
 	return trajectory;
 }
 
-/** printf into the file. */
-template <class... Values>
-void print(AtomicFile& file, const char* format, Values... values)
-{
-	char text[512];
-	std::snprintf(text, sizeof text, format, values...);
-	file.stream() << text;
-}
-
 void saveKitti(const std::string& path, const Trajectory& trajectory)
 {
 	AtomicFile file(path), times(stampsPathOf(path, TrajectoryFormat::kitti));
 	for (const StampedPose& pose : trajectory.poses())
 	{
 		const Eigen::Matrix3d R = pose.T.R.toRotationMatrix();
-		for (int i = 0; i < 3; ++i) print(file, "%.12e %.12e %.12e %.12e%s", R(i, 0), R(i, 1), R(i, 2), pose.T.p[i], i < 2 ? " " : "\n");
+		for (int i = 0; i < 3; ++i)
+			file.stream() << mrpt::format("%.12e %.12e %.12e %.12e%s", R(i, 0), R(i, 1), R(i, 2), pose.T.p[i], i < 2 ? " " : "\n");
 		times.stream() << formatSeconds(pose.t_ns) << "\n";
 	}
 	commitTogether({&times, &file});
@@ -132,8 +124,8 @@ void saveEuroc(const std::string& path, const Trajectory& trajectory)
 	{
 		const Eigen::Quaterniond& R = pose.T.R;
 		const Eigen::Vector3d& p = pose.T.p;
-		print(file, "%lld,%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n", static_cast<long long>(pose.t_ns), p.x(), p.y(), p.z(), R.w(), R.x(),
-		      R.y(), R.z());
+		file.stream() << pose.t_ns
+		              << mrpt::format(",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n", p.x(), p.y(), p.z(), R.w(), R.x(), R.y(), R.z());
 	}
 	file.commit();
 }
@@ -144,8 +136,8 @@ void saveMrpt(const std::string& path, const Trajectory& trajectory)
 	for (const StampedPose& pose : trajectory.poses())
 	{
 		const mrpt::poses::CPose3D T = toMrpt(pose.T);
-		file.stream() << formatSeconds(pose.t_ns);
-		print(file, " %.9f %.9f %.9f %.12f %.12f %.12f\n", T.x(), T.y(), T.z(), T.yaw(), T.pitch(), T.roll());
+		file.stream() << formatSeconds(pose.t_ns)
+		              << mrpt::format(" %.9f %.9f %.9f %.12f %.12f %.12f\n", T.x(), T.y(), T.z(), T.yaw(), T.pitch(), T.roll());
 	}
 	file.commit();
 }
@@ -154,20 +146,15 @@ void saveG2o(const std::string& path, const Trajectory& trajectory)
 {
 	AtomicFile file(path), stamps(stampsPathOf(path, TrajectoryFormat::g2o));
 	stamps.stream() << "id,t_ns\n";
-	const auto pose = [&](const Pose3& T)
-	{ print(file, " %.9f %.9f %.9f %.12f %.12f %.12f %.12f", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(), T.R.w()); };
 	const auto& poses = trajectory.poses();
 	for (size_t i = 0; i < poses.size(); ++i)
 	{
-		print(file, "VERTEX_SE3:QUAT %zu", i);
-		pose(poses[i].T);
-		file.stream() << "\n";
+		file.stream() << "VERTEX_SE3:QUAT " << i << " " << poseRow(poses[i].T) << "\n";
 		stamps.stream() << i << "," << poses[i].t_ns << "\n";
 	}
 	for (size_t i = 1; i < poses.size(); ++i)
 	{
-		print(file, "EDGE_SE3:QUAT %zu %zu", i - 1, i);
-		pose(poses[i - 1].T.inverse() * poses[i].T);
+		file.stream() << "EDGE_SE3:QUAT " << i - 1 << " " << i << " " << poseRow(poses[i - 1].T.inverse() * poses[i].T);
 		for (int r = 0; r < 6; ++r)
 			for (int c = r; c < 6; ++c) file.stream() << (r == c ? " 1" : " 0");
 		file.stream() << "\n";

@@ -1,5 +1,6 @@
 #include "InputCheck.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/Time.h>
 #include <viwo/core/TimeText.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -65,9 +65,8 @@ void requireOrderOfTime(const std::vector<std::string>& rawlogs, const RawlogRea
 		if (!isFile(path) || !isFile(path_before)) continue;  // a pipe is read in its turn
 		const auto first_ns = firstStamp_ns(RawlogReader(path, options)), before_ns = firstStamp_ns(RawlogReader(path_before, options));
 		if (!first_ns || !before_ns || *first_ns >= *before_ns) continue;
-		char text[64];
-		std::snprintf(text, sizeof text, ": begins %.3f s before ", secondsBetween(*first_ns, *before_ns));
-		throw Error(path + text + path_before + "; give the rawlogs of one run in the order of their time");
+		throw Error(path + mrpt::format(": begins %.3f s before ", secondsBetween(*first_ns, *before_ns)) + path_before +
+		            "; give the rawlogs of one run in the order of their time");
 	}
 }
 
@@ -224,8 +223,7 @@ class Look
 	{
 		const EstimatorOptions& e = options_.odometry.estimator;
 		if (!e.useCamera() || !e.useImu() || camera().count < 3 || imu().rate_hz() > camera().rate_hz()) return;
-		char rates[96];
-		std::snprintf(rates, sizeof rates, "the IMU has %.1f Hz, the camera %.1f Hz", imu().rate_hz(), camera().rate_hz());
+		const std::string rates = mrpt::format("the IMU has %.1f Hz, the camera %.1f Hz", imu().rate_hz(), camera().rate_hz());
 		throw Error(names() + ": " + rates + " (labels " + labels().imu_label + ", " + labels().cam_label +
 		            "): an IMU must be faster than the camera; record it at 100 Hz or more, or run --mode wheel");
 	}

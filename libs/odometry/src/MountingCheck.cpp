@@ -1,12 +1,12 @@
 #include "MountingCheck.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/MrptPose.h>
 #include <viwo/core/Ranking.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viwo
 {
@@ -47,11 +47,10 @@ void MountingCheck::judgeSize(double median_m_s2) const
 {
 	const double g_m_s2 = options_.estimator.noise.gravity_m_s2;
 	if (std::abs(median_m_s2 - g_m_s2) <= kOffGravity * g_m_s2) return;
-	char text[160];
-	std::snprintf(text, sizeof text, ": the accelerometer reads %.3g at the start, gravity is %.2f m/s^2; ", median_m_s2, g_m_s2);
+	const std::string readings = mrpt::format(": the accelerometer reads %.3g at the start, gravity is %.2f m/s^2; ", median_m_s2, g_m_s2);
 	const char* const remedy = std::abs(median_m_s2 - 1) < kOffGravity ? "it seems to be in units of g: record specific force in m/s^2"
 	                                                                   : "record specific force in m/s^2, gravity included";
-	throw Error("label " + options_.rawlog.imu_label + text + remedy);
+	throw Error("label " + options_.rawlog.imu_label + readings + remedy);
 }
 
 void MountingCheck::judgeDirection(double median_m_s2) const
@@ -61,9 +60,9 @@ void MountingCheck::judgeDirection(double median_m_s2) const
 		if (f.norm() < 2 * median_m_s2) sum += f;
 	const double off_deg = std::acos(std::clamp(sum.normalized().z(), -1.0, 1.0)) * 180 / M_PI;
 	if (!(off_deg > kOffVertical_deg)) return;
-	char text[160];
-	std::snprintf(text, sizeof text, ": by its sensorPose, gravity at the start is %.0f deg off the robot's vertical; set sensorPose with ",
-	              off_deg);
-	throw Error("label " + options_.rawlog.imu_label + text + kRemedy);
+	throw Error(
+	    "label " + options_.rawlog.imu_label +
+	    mrpt::format(": by its sensorPose, gravity at the start is %.0f deg off the robot's vertical; set sensorPose with ", off_deg) +
+	    kRemedy);
 }
 }  // namespace viwo

@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/NumberText.h>
 #include <viwo/core/Time.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <map>
 #include <optional>
@@ -138,10 +138,7 @@ class Run
 
 	void tell(double t_s, const std::string& what) const
 	{
-		if (!hooks_.log) return;
-		char text[64];
-		std::snprintf(text, sizeof text, "%8.2f s  ", t_s);
-		hooks_.log(text + what);
+		if (hooks_.log) hooks_.log(mrpt::format("%8.2f s  ", t_s) + what);
 	}
 
 	void tell(const StatusChange& c) const
@@ -151,9 +148,8 @@ class Run
 
 	void tell(const GapLog::Gap& gap) const
 	{
-		char text[64];
-		std::snprintf(text, sizeof text, "gap of %.2f s in ", gap.duration_s);
-		tell(secondsBetween(result_.frames > 0 ? odometry_.firstFrame_ns() : *first_ns_, gap.begin_ns), text + gap.label);
+		tell(secondsBetween(result_.frames > 0 ? odometry_.firstFrame_ns() : *first_ns_, gap.begin_ns),
+		     mrpt::format("gap of %.2f s in ", gap.duration_s) + gap.label);
 	}
 
 	/** The message with the name of the rawlog, unless it stands there already. */
@@ -190,14 +186,12 @@ class Run
 	/** Time, speed of the replay, status, features, position and its deviation, the robot's speed; and, by the log's clock, the lag. */
 	std::string note(const FrameEstimate& e) const
 	{
-		char text[160];
-		std::snprintf(text, sizeof text, "%.1f s at %.1f x, %s, %d features, x %.2f y %.2f m, sigma %.3f m, %.2f m/s",
-		              secondsBetween(odometry_.firstFrame_ns(), e.t_ns), clock_.speed(), toString(e.status), e.features, e.T_WO.p.x(),
-		              e.T_WO.p.y(), std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)), e.state.v_WB.norm());
-		std::string line = text;
-		if (options_.replay_speed <= 0) return line;
-		std::snprintf(text, sizeof text, ", lag %.1f s", clock_.lag_s());
-		return line + text;
+		std::string line =
+		    mrpt::format("%.1f s at %.1f x, %s, %d features, x %.2f y %.2f m, sigma %.3f m, %.2f m/s",
+		                 secondsBetween(odometry_.firstFrame_ns(), e.t_ns), clock_.speed(), toString(e.status), e.features, e.T_WO.p.x(),
+		                 e.T_WO.p.y(), std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)), e.state.v_WB.norm());
+		if (options_.replay_speed > 0) line += mrpt::format(", lag %.1f s", clock_.lag_s());
+		return line;
 	}
 
 	void finish(bool failed)
@@ -229,13 +223,11 @@ class Run
 		const double path_m = result_.path_length_m, wheels_m = result_.wheel_travel_m;
 		const bool judged = options_.odometry.estimator.useWheels() && options_.pose_frame == PoseFrame::O && wheels_m > 0;
 		if (!judged || (path_m <= kFactor * wheels_m + kSlack_m && wheels_m <= kFactor * path_m + kSlack_m)) return {};
-		char text[256];
-		std::snprintf(
-		    text, sizeof text,
-		    ": the path is %.1f m, but the wheels rolled %.1f m: the result cannot be trusted; check sensorPose and cameraPose, the "
-		    "camera's calibration, and the wheels' settings",
-		    path_m, wheels_m);
-		return rawlogNames(options_.rawlogs) + text;
+		return rawlogNames(options_.rawlogs) +
+		       mrpt::format(
+		           ": the path is %.1f m, but the wheels rolled %.1f m: the result cannot be trusted; check sensorPose and cameraPose, the "
+		           "camera's calibration, and the wheels' settings",
+		           path_m, wheels_m);
 	}
 
 	std::string noPose() const
@@ -254,14 +246,11 @@ class Run
 	{
 		if (options_.from_s <= 0 && !std::isfinite(options_.to_s))
 			return "no frame was processed; in the log: " + reader_.counts().describe();
-		char text[160];
 		if (options_.from_s > read_s_)
-			std::snprintf(text, sizeof text, "--from %g s is behind the end of the log, which has %.1f s", options_.from_s, read_s_);
-		else if (read_s_ > options_.to_s)
-			std::snprintf(text, sizeof text, "no frame between --from %g and --to %g s of the log", options_.from_s, options_.to_s);
-		else
-			std::snprintf(text, sizeof text, "no frame behind --from %g s of the log, which has %.1f s", options_.from_s, read_s_);
-		return text;
+			return mrpt::format("--from %g s is behind the end of the log, which has %.1f s", options_.from_s, read_s_);
+		if (read_s_ > options_.to_s)
+			return mrpt::format("no frame between --from %g and --to %g s of the log", options_.from_s, options_.to_s);
+		return mrpt::format("no frame behind --from %g s of the log, which has %.1f s", options_.from_s, read_s_);
 	}
 
 	const OdometryRunOptions& options_;

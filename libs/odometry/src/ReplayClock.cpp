@@ -1,8 +1,9 @@
 #include "ReplayClock.h"
 
+#include <mrpt/core/format.h>
+
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <thread>
 
 namespace viwo
@@ -41,9 +42,7 @@ std::optional<std::string> ReplayClock::judged()
 	behind_ = lag_s_ > (behind_ ? kCaughtUp_s : kBehind_s);
 	if (behind_ == was_behind) return std::nullopt;
 	if (!behind_) return "caught up with real time";
-	char text[96];
-	std::snprintf(text, sizeof text, "%.1f s behind real time; nothing is dropped", lag_s_);
-	return text;
+	return mrpt::format("%.1f s behind real time; nothing is dropped", lag_s_);
 }
 
 double ReplayClock::speed() const

@@ -1,9 +1,10 @@
 #include "RunOutputs.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/PoseRows.h>
 #include <viwo/core/TimeText.h>
 
-#include <cstdio>
 #include <filesystem>
 
 namespace viwo
@@ -20,10 +21,7 @@ std::string madeFolder(const std::string& dir)
 
 void writePose(std::ostream& out, int64_t t_ns, const Pose3& T)
 {
-	char text[256];
-	std::snprintf(text, sizeof text, " %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(),
-	              T.R.w());
-	out << formatSeconds(t_ns) << text;
+	out << formatSeconds(t_ns) << " " << poseRow(T) << "\n";
 }
 
 void writeCovarianceHeader(std::ostream& out)
@@ -44,12 +42,8 @@ void writeLandmarks(const std::string& path, const std::map<uint64_t, LandmarkPo
 	    << "ply\nformat ascii 1.0\ncomment landmarks in W, m\nelement vertex " << landmarks.size()
 	    << "\nproperty float x\nproperty float y\nproperty float z\nproperty float depth_deviation\nproperty uint id\nend_header\n";
 	for (const auto& [id, point] : landmarks)
-	{
-		char text[160];
-		std::snprintf(text, sizeof text, "%.4f %.4f %.4f %.4f %llu\n", point.p_W.x(), point.p_W.y(), point.p_W.z(), point.depth_deviation,
-		              static_cast<unsigned long long>(id));
-		file.stream() << text;
-	}
+		file.stream() << mrpt::format("%.4f %.4f %.4f %.4f ", point.p_W.x(), point.p_W.y(), point.p_W.z(), point.depth_deviation) << id
+		              << "\n";
 	file.commit();
 }
 
@@ -58,12 +52,9 @@ void writeKeyFrames(const std::string& path, const std::map<int64_t, Pose3>& key
 	AtomicFile file(path);
 	file.stream() << "# camera (optical axes) in W, m\nt_ns,x,y,z,qx,qy,qz,qw\n";
 	for (const auto& [t_ns, T] : key_frames)
-	{
-		char text[256];
-		std::snprintf(text, sizeof text, ",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(),
-		              T.R.w());
-		file.stream() << t_ns << text;
-	}
+		file.stream() << t_ns
+		              << mrpt::format(",%.9f,%.9f,%.9f,%.12f,%.12f,%.12f,%.12f\n", T.p.x(), T.p.y(), T.p.z(), T.R.x(), T.R.y(), T.R.z(),
+		                              T.R.w());
 	file.commit();
 }
 
@@ -110,12 +101,7 @@ void RunOutputs::add(const FrameEstimate& estimate, const Calibration& calibrati
 	writePose(trajectory_.stream(), estimate.t_ns, inFrame(estimate.state.T_WB, calibration, T_BC));
 	covariance_.stream() << formatSeconds(estimate.t_ns);
 	for (int i = 0; i < 6; ++i)
-		for (int j = i; j < 6; ++j)
-		{
-			char text[32];
-			std::snprintf(text, sizeof text, ",%.6e", estimate.covariance(i, j));
-			covariance_.stream() << text;
-		}
+		for (int j = i; j < 6; ++j) covariance_.stream() << mrpt::format(",%.6e", estimate.covariance(i, j));
 	covariance_.stream() << "," << toString(estimate.status) << "\n";
 
 	if (poses_ == 0) first_ = estimate;

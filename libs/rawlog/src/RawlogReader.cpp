@@ -1,3 +1,4 @@
+#include <mrpt/core/format.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <viwo/core/Error.h>
 #include <viwo/core/Joined.h>
@@ -8,7 +9,6 @@
 #include <viwo/rawlog/StampGate.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -157,9 +157,8 @@ void RawlogReader::Impl::requireOrder(const std::vector<CObservation::Ptr>& obse
 		if (o->timestamp == INVALID_TIMESTAMP || !wanted(o->sensorLabel) || counts.entries == 0) continue;
 		const int64_t t_ns = nanosecondsOf(o->timestamp);
 		if (t_ns + window_ns >= newest_ns) continue;
-		char text[64];
-		std::snprintf(text, sizeof text, ": begins %.3f s before the end of ", secondsBetween(t_ns, newest_ns));
-		throw Error(source.path() + text + source.pathBefore() + "; give the rawlogs of one run in the order of their time");
+		throw Error(source.path() + mrpt::format(": begins %.3f s before the end of ", secondsBetween(t_ns, newest_ns)) +
+		            source.pathBefore() + "; give the rawlogs of one run in the order of their time");
 	}
 }
 

@@ -3,12 +3,12 @@
 #include "ImuPreintegration.h"
 #include "WheelPreintegration.h"
 
+#include <mrpt/core/format.h>
 #include <viwo/core/So3.h>
 #include <viwo/core/Time.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace viwo
@@ -21,14 +21,6 @@ constexpr double kMargin_s = 0.25;
 constexpr double kQuietSide_s = 0.15;
 constexpr double kLeastDuration_s = 20;
 constexpr double kLeastTravel_m = 2, kLeastTurn_rad = 2;
-
-template <class... Arguments>
-std::string line(const char* format, Arguments... arguments)
-{
-	char text[400];
-	std::snprintf(text, sizeof text, format, arguments...);
-	return text;
-}
 
 bool stands(const BatchSamples& samples, const EstimatorOptions& options, int64_t t_ns)
 {
@@ -48,8 +40,8 @@ std::string checkStreams(const BatchCalibrationInput& in)
 	const int64_t end_ns = std::min({in.frames.back().t_ns, in.imu.back().t_ns, in.wheels.back().t_ns});
 	const double common_s = secondsBetween(begin_ns, end_ns);
 	if (common_s < kLeastDuration_s)
-		return line("camera, IMU and wheels overlap for %.1f s only, a calibration needs %.0f s, better 120 s", std::max(0.0, common_s),
-		            kLeastDuration_s);
+		return mrpt::format("camera, IMU and wheels overlap for %.1f s only, a calibration needs %.0f s, better 120 s",
+		                    std::max(0.0, common_s), kLeastDuration_s);
 	return {};
 }
 
@@ -168,8 +160,9 @@ std::string startBatch(const BatchCalibrationInput& in, const BatchCalibrationOp
 			const double period_s = both_stand ? options.standing_period_s : options.keyframe_period_s;
 			if (secondsBetween(before.t_ns, frame.t_ns) < period_s - kJitter_s) continue;
 			if (!reckoning.advance(states.imuTime_ns(before), states.imuTime_ns(frame)))
-				return line("the IMU has a hole of more than %.2f s, %.1f s after the log's begin; take a log without, or one part of it",
-				            estimator.window.max_imu_gap_s, secondsBetween(in.imu.front().t_ns, states.imuTime_ns(before)));
+				return mrpt::format(
+				    "the IMU has a hole of more than %.2f s, %.1f s after the log's begin; take a log without, or one part of it",
+				    estimator.window.max_imu_gap_s, secondsBetween(in.imu.front().t_ns, states.imuTime_ns(before)));
 		}
 		NavState state = reckoning.state();
 		state.t_ns = frame.t_ns;
@@ -178,7 +171,7 @@ std::string startBatch(const BatchCalibrationInput& in, const BatchCalibrationOp
 		states.frames.push_back(std::move(frame));
 	}
 	if (reckoning.travel_m() < kLeastTravel_m && reckoning.turned_rad() < kLeastTurn_rad)
-		return line(
+		return mrpt::format(
 		    "the robot moves by %.2f m and turns by %.0f deg only; drive it: starts and stops, turns to both sides, figures of "
 		    "eight, for two minutes",
 		    reckoning.travel_m(), reckoning.turned_rad() * 180 / M_PI);
