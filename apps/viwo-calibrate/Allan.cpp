@@ -46,7 +46,7 @@ int allan(AllanArguments& a)
 	const ImuNoiseResult result = estimateImuNoise(a.noise, hooks);
 	bar.clear();
 	std::cout << describeImuNoise(result) << std::flush;
-	tellNotes(result.warnings);
+	app::tellNotes(result.warnings);
 	writeRig(a, rig, result);
 	if (!a.svg.empty()) saveImuNoiseSvg(a.svg, result);
 	if (!a.html.empty()) saveImuNoiseHtml(a.html, result);

@@ -67,7 +67,7 @@ void tell(const Arguments& a, const CalibrationRunResult& result)
 	std::cout << (a.json ? calibrationJson(result) : calibrationText(result)) << std::flush;
 	saveCalibration(result, a.output);
 	if (!a.html.empty()) writeAtomically(a.html, calibrationHtml(result));
-	tellNotes(result.batch.notes);
+	app::tellNotes(result.batch.notes);
 	if (a.json) return;
 	std::cout << "\n" << a.output << std::endl;
 	if (!a.html.empty()) std::cout << a.html << std::endl;

@@ -49,7 +49,7 @@ void print(const std::string& path, const ImportedRig& imported)
 		            rig.imu->mounting.y_m, rig.imu->mounting.z_m);
 	std::printf("\n");
 	std::fflush(stdout);
-	tellNotes(imported.warnings);
+	app::tellNotes(imported.warnings);
 }
 
 int importFiles(Arguments& a)

@@ -1,17 +1,10 @@
 #include <viwo/app/Program.h>
 
-#include <iostream>
 #include <vector>
 
 #include "Command.h"
 
 using namespace viwo;
-
-void calibrate::tellNotes(const std::vector<std::string>& notes)
-{
-	if (app::quiet()) return;
-	for (const std::string& note : notes) std::cerr << "viwo-calibrate: note: " << note << std::endl;
-}
 
 int main(int argc, char** argv)
 {

@@ -161,9 +161,9 @@ int convertRawlog(const Arguments& a)
 	bar.clear();
 	std::printf("%s: %zu observations and %zu poses%s\n", a.output.c_str(), result.observations, result.poses,
 	            result.images_folder.empty() ? "" : ("; their files in " + result.images_folder).c_str());
-	if (result.left_out > 0 && !app::quiet())
-		std::fprintf(stderr, "viwo-convert: note: %zu observations left out: they have no stamp, or one that does not fit the others\n",
-		             result.left_out);
+	if (result.left_out > 0)
+		app::tellNotes(
+		    {std::to_string(result.left_out) + " observations left out: they have no stamp, or one that does not fit the others"});
 	return 0;
 }
 

@@ -44,8 +44,7 @@ void print(const gt::GroundTruthRunOptions& options, const gt::GroundTruthRunRes
 	            options.output_dir.c_str(), r.scans, r.key_scans, r.path_length_m, r.good, r.degenerate, r.odometry_only, r.loops_accepted,
 	            r.cpu_time_s);
 	std::fflush(stdout);
-	if (app::quiet()) return;
-	for (const std::string& note : r.notes) std::fprintf(stderr, "viwo-groundtruth: note: %s\n", note.c_str());
+	app::tellNotes(r.notes);
 }
 }  // namespace
 

@@ -6,7 +6,6 @@
 #include <viwo/importers/RosBagImporter.h>
 
 #include <cstdio>
-#include <iostream>
 
 using namespace viwo;
 
@@ -62,8 +61,7 @@ void print(const ImportJob& job, const ImportResult& result)
 		            result.ground_truth_assumed ? ", taken for those of O" : " of O");
 	if (!result.gps_path.empty()) std::printf("%s: positions of the GPS antenna\n", result.gps_path.c_str());
 	std::fflush(stdout);
-	if (app::quiet()) return;
-	for (const std::string& note : result.notes) std::cerr << "viwo-import: note: " << note << std::endl;
+	app::tellNotes(result.notes);
 }
 }  // namespace
 

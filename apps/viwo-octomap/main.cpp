@@ -213,10 +213,10 @@ void print(const Arguments& a, const OctoMapRunResult& r)
 	std::printf("%s: %zu observations, %zu rays; %zu occupied and %zu free leaves; %.1f s, %.0f MiB\n", a.run.output.c_str(), r.used,
 	            r.rays, r.occupied, r.free, r.wall_time_s, peakMemory_mb());
 	std::fflush(stdout);
-	if (app::quiet()) return;
-	const auto note = [](size_t count, const char* what)
+	std::vector<std::string> notes;
+	const auto note = [&notes](size_t count, const char* what)
 	{
-		if (count > 0) std::fprintf(stderr, "viwo-octomap: note: %zu %s\n", count, what);
+		if (count > 0) notes.push_back(std::to_string(count) + " " + what);
 	};
 	note(r.flagged, "observations left out: their poses are flagged as bad");
 	note(r.no_pose, "observations left out: no pose at their time");
@@ -224,6 +224,7 @@ void print(const Arguments& a, const OctoMapRunResult& r)
 	note(r.empty, "observations have no return");
 	note(r.scans_off_grid, "planar scans lie outside of the grid's heights; set --grid-min-z and --grid-max-z to see them there");
 	note(r.unusable_rays, "rays left out: beyond the octree or not finite");
+	app::tellNotes(notes);
 }
 }  // namespace
 

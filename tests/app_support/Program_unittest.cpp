@@ -120,6 +120,15 @@ TEST(Program, HelpVersionQuiet)
 	EXPECT_EQ(runWith({}, [] { return app::quiet() ? 1 : 0; }).status, 0) << "a flag of an earlier run stays";
 }
 
+TEST(Program, NotesAreLinesOnStderr)
+{
+	const auto tells = [] { return app::tellNotes({"one", "two, 100 %s"}), 0; };
+	const Outcome outcome = runWith({}, tells);
+	EXPECT_EQ(outcome.err, "viwo-test: note: one\nviwo-test: note: two, 100 %s\n");
+	EXPECT_EQ(outcome.out, "");
+	EXPECT_EQ(runWith({"--quiet"}, tells).err, "");
+}
+
 /** A recording that is overwritten by a typing error cannot be made again. */
 TEST(Program, AnInputIsNeverOverwritten)
 {

@@ -24,6 +24,7 @@ namespace
 {
 volatile std::sig_atomic_t g_interrupted = 0;
 bool g_quiet = false;
+std::string g_program = "viwo";
 
 extern "C" void onSignal(int)
 {
@@ -206,6 +207,7 @@ int run(CLI::App& cli, int argc, char** argv, const std::function<int()>& body)
 	std::string program = cli.get_name();
 	if (program.empty()) program = std::filesystem::path(argc > 0 ? argv[0] : "viwo").filename().string();
 	cli.name(program);
+	g_program = program;
 	g_quiet = false;
 	cli.set_version_flag("--version", program + " (viwo) " + version());
 	cli.add_flag("--quiet", g_quiet, "Print results and errors only: no progress, no remarks");
@@ -256,6 +258,11 @@ bool interrupted()
 bool quiet()
 {
 	return g_quiet;
+}
+void tellNotes(const std::vector<std::string>& notes)
+{
+	if (g_quiet) return;
+	for (const std::string& note : notes) std::cerr << g_program + ": note: " + note << std::endl;
 }
 std::string version()
 {

@@ -50,6 +50,9 @@ void requireInputsAreKept(const std::vector<std::string>& inputs, const std::vec
 /** Whether --quiet was given: results and errors only, no progress and no remarks. */
 bool quiet();
 
+/** What a result leaves in doubt, a line "<program>: note: ..." on stderr for each; nothing when quiet. */
+void tellNotes(const std::vector<std::string>& notes);
+
 /** Version of viwo, "0.1.0". */
 std::string version();
 
