@@ -13,7 +13,8 @@ namespace viwo::gt
 namespace
 {
 constexpr double kKeyDeviation_m = 0.001, kKeyDeviation_rad = 0.0005;
-constexpr int kIterations = 4;
+constexpr int kIterations = 4, kLeastInliers = 15;
+constexpr double kFarthest_m = 0.5;  // from the guess
 
 Eigen::Matrix3d rotation3(const Pose2& T)
 {
@@ -56,6 +57,17 @@ Cloud mapAround(const KeyScans& keys, const Pose2& T, const GroundTruthOptions& 
 	Cloud cloud;
 	for (const auto& [cost, k] : near) appendMoved(keys.poses[k], keys.clouds[k], cloud);
 	return thinned(cloud, scales.voxel_m);
+}
+
+/** Where a scan meets the map around its key; nothing where the two do not fit, or far from the guess. */
+std::optional<Registration> placedOnMap(const Cloud& cloud, const PointIndex& map, const Pose2& guess, const Scales& scales,
+                                        double min_inlier_ratio)
+{
+	RegistrationOptions options = scales.registration;
+	options.first_radius_m = options.last_radius_m;
+	const Registration r = registerCloud(cloud, map, guess, nullptr, options);
+	if (r.inlierRatio() < min_inlier_ratio || r.inliers < kLeastInliers || (r.T.p - guess.p).norm() > kFarthest_m) return std::nullopt;
+	return r;
 }
 
 struct Unary
@@ -153,6 +165,17 @@ std::vector<std::optional<Motion2>> stepsBetween(const FrontEndResult& front_end
 	}
 	return steps;
 }
+
+/** What the smoothing leaves open of a scan behind its key, bounded by odometry's own uncertainty. */
+Eigen::Matrix3d covarianceSince(const KeyScans& keys, size_t k, size_t i, const Unary& unary, const MotionModel& motion)
+{
+	const Eigen::Matrix3d R = rotation3(keys.poses[k]);
+	Eigen::Matrix3d own = unary.information;
+	const auto since = motion.between(keys.scan[k], i);
+	if (since) own += R * since->information * R.transpose();
+	own.diagonal().array() += 1e-6;
+	return own.inverse();
+}
 }  // namespace
 
 std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResult& front_end, const KeyScans& keys,
@@ -173,8 +196,6 @@ std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResul
 	            [&](size_t k)
 	            {
 		            PointIndex index;
-		            RegistrationOptions registration = scales.registration;
-		            registration.first_radius_m = registration.last_radius_m;
 		            for (const size_t i : scans_of[k])
 		            {
 			            result[i].flag = front_end.scans[i].flag;
@@ -189,15 +210,14 @@ std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResul
 			            }
 			            if (index.size() == 0) index.build(mapAround(keys, keys.poses[k], options, scales), 2 * scales.voxel_m);
 			            const Cloud cloud = scanCloud(session.scans[i], options.scan, motion.twistAt(i), session.range_noise_m);
-			            const Registration r = registerCloud(cloud, index, poses[i], nullptr, registration);
-			            if (r.inlierRatio() < options.matching.min_inlier_ratio || r.inliers < 15) continue;
-			            if ((r.T.p - poses[i].p).norm() > 0.5) continue;
-			            const double trust = r.trust(options.matching.min_weakest);
+			            const auto r = placedOnMap(cloud, index, poses[i], scales, options.matching.min_inlier_ratio);
+			            if (!r) continue;
+			            const double trust = r->trust(options.matching.min_weakest);
 			            const PoseFlag flag = flagOf(trust);
-			            if (flag == PoseFlag::good) result[i].matched = r.T;
+			            if (flag == PoseFlag::good) result[i].matched = r->T;
 			            if (holdout(i)) continue;
-			            unary[i].T = r.T;
-			            unary[i].information = r.trustedInformation(trust) / options.graph.inflation;
+			            unary[i].T = r->T;
+			            unary[i].information = r->trustedInformation(trust) / options.graph.inflation;
 			            result[i].flag = flag;
 		            }
 	            });
@@ -207,16 +227,8 @@ std::vector<FinalPose> placeAllScans(const Session& session, const FrontEndResul
 	for (size_t i = 0; i < n; ++i)
 	{
 		result[i].T = poses[i];
-		const Eigen::Matrix3d R = rotation3(keys.poses[spans[i].before]);
-		if (i != keys.scan[spans[i].before])
-		{
-			// On top of the key's: what the smoothing leaves open between keys, bounded by odometry's own uncertainty.
-			Eigen::Matrix3d own = unary[i].information;
-			const auto since = motion.between(keys.scan[spans[i].before], i);
-			if (since) own += R * since->information * R.transpose();
-			own.diagonal().array() += 1e-6;
-			result[i].covariance += own.inverse();
-		}
+		const size_t k = spans[i].before;
+		if (i != keys.scan[k]) result[i].covariance += covarianceSince(keys, k, i, unary[i], motion);
 	}
 	return result;
 }
