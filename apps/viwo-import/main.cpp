@@ -38,7 +38,6 @@ CLI::App* addRosBag(CLI::App& cli, ImportJob& job, RosBagOptions& options)
 
 void print(const ImportJob& job, const ImportResult& result)
 {
-	std::fputs(result.mapping.c_str(), stdout);
 	const char* separator = "";
 	std::printf("%s%s: ", result.mapping.empty() ? "" : "\n", job.rawlog_path.c_str());
 	const auto count = [&separator](size_t number, const char* what, bool always = false)
@@ -86,6 +85,11 @@ int main(int argc, char** argv)
 	CLI::App* carmen = cli.add_subcommand("carmen", "A CARMEN log with scans and odometry (plain, .gz or .bz2)");
 	addFiles(*carmen, job);
 	RosBagOptions bag_options;
+	bag_options.show_mapping = [](const std::string& mapping)
+	{
+		std::fputs(mapping.c_str(), stdout);
+		std::fflush(stdout);
+	};
 	CLI::App* rosbag = addRosBag(cli, job, bag_options);
 	cli.footer(
 	    "Examples:\n"

@@ -7,6 +7,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +15,32 @@
 
 namespace viwo
 {
+namespace
+{
+/** Two names of one definition. */
+bool isTransforms(const std::string& type)
+{
+	return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
+}
+
+bool isRead(const std::string& type)
+{
+	return isConvertible(type) || isTransforms(type) || type == "sensor_msgs/CameraInfo" || type == "geometry_msgs/PoseStamped";
+}
+
+/** The type that is read of a topic. */
+const RosTopic* readOf(const std::vector<RosTopic>& topics, const std::string& name)
+{
+	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
+	return at == topics.end() ? nullptr : &*at;
+}
+
+bool isReadAs(const std::string& type, const RosTopic& read)
+{
+	return type == read.type || (isTransforms(type) && isTransforms(read.type));
+}
+}  // namespace
+
 struct RosBagFile::Impl
 {
 	std::vector<std::unique_ptr<rosbag::Bag>> bags;
@@ -52,6 +79,9 @@ RosBagFile::RosBagFile(const std::vector<std::string>& paths) : impl_(std::make_
 		}
 	}
 	for (const auto& [topic, count] : counts) topics_.push_back({topic.first, topic.second, count});
+	std::stable_sort(topics_.begin(), topics_.end(),
+	                 [](const RosTopic& a, const RosTopic& b)
+	                 { return std::pair(a.name, !isRead(a.type)) < std::pair(b.name, !isRead(b.type)); });
 }
 
 RosBagFile::~RosBagFile() = default;
@@ -61,11 +91,25 @@ std::string RosBagFile::name() const
 	return paths_.size() == 1 ? paths_.front() : paths_.front() + " and " + std::to_string(paths_.size() - 1) + " more";
 }
 
+std::vector<std::string> RosBagFile::notesOnTypes(const std::set<std::string>& topics) const
+{
+	std::vector<std::string> notes;
+	for (const RosTopic& topic : topics_)
+		if (const RosTopic* read = readOf(topics_, topic.name); topics.count(topic.name) > 0 && !isReadAs(topic.type, *read))
+			notes.push_back(topic.name + ": of two types, " + read->type + " and " + topic.type +
+			                "; left out: " + counted(topic.messages, "message") + " of the latter");
+	return notes;
+}
+
 void RosBagFile::visit(const std::set<std::string>& topics, const std::function<bool(const rosbag::MessageInstance&)>& visitor) const
 {
 	try
 	{
-		const rosbag::TopicQuery wanted(std::vector<std::string>(topics.begin(), topics.end()));
+		const auto wanted = [&](const rosbag::ConnectionInfo* connection)
+		{
+			const RosTopic* read = topics.count(connection->topic) > 0 ? readOf(topics_, connection->topic) : nullptr;
+			return read != nullptr && isReadAs(connection->datatype, *read);
+		};
 		rosbag::View view;
 		for (const auto& bag : impl_->bags) view.addQuery(*bag, wanted);
 		for (const rosbag::MessageInstance& message : view)

@@ -23,13 +23,17 @@ class RosBagFile
 	explicit RosBagFile(const std::vector<std::string>& paths);
 	~RosBagFile();
 
-	/** Sorted by name. A topic of two types stands once for each. */
+	/** Sorted by name. A topic of two types stands once for each, first that which visit() reads. */
 	const std::vector<RosTopic>& topics() const { return topics_; }
+
+	/** One line for each of these topics that has messages of a second type, which are not read. */
+	std::vector<std::string> notesOnTypes(const std::set<std::string>& topics) const;
 
 	/** "a.bag", or "a.bag and 2 more". */
 	std::string name() const;
 
-	/** Messages of these topics in the order of recording; ends early when the visitor gives false.
+	/** Messages of these topics in the order of recording; ends early when the visitor gives false. Of a topic of two types only those of
+	 *  one are read: that which can become observations.
 	 *  @throws Error: a damaged chunk. */
 	void visit(const std::set<std::string>& topics, const std::function<bool(const rosbag::MessageInstance&)>& visitor) const;
 

@@ -1,7 +1,11 @@
 #include "RosBagImport.h"
+#include "RosTopicTrial.h"
 
 #include <viwo/core/Error.h>
 #include <viwo/importers/RosBagImporter.h>
+
+#include <memory>
+#include <set>
 
 namespace viwo
 {
@@ -10,14 +14,42 @@ bool hasRosBagSupport()
 	return true;
 }
 
+namespace
+{
+[[noreturn]] void refuseForNoTopic(const RosBagFile& bag, const RosTopicMap& map)
+{
+	if (map.notes.empty()) throw Error(bag.name() + ": no topic can become an observation; it has: " + namesOfTopics(bag.topics()));
+	std::string reasons;
+	for (const std::string& note : map.notes) reasons += (reasons.empty() ? "" : "; ") + note;
+	throw Error(bag.name() + ": no topic can become an observation without a --map: " + reasons);
+}
+
+std::unique_ptr<RosBagImport> prepared(const RosBagFile& bag, const RosTopicMap& map, const ImportJob& job, const RosBagOptions& options)
+try
+{
+	return std::make_unique<RosBagImport>(bag, map, job, options.record_time);
+}
+catch (const Error&)
+{
+	if (options.map_path.empty()) options.show_mapping(describeTopicMap(map));
+	throw;
+}
+}  // namespace
+
 ImportResult importRosBags(const ImportJob& job, const RosBagOptions& options)
 {
 	const RosBagFile bag(options.bags);
-	const RosTopicMap map = options.map_path.empty() ? proposeTopicMap(bag.topics()) : readTopicMap(options.map_path, bag.topics());
-	if (map.topics.empty()) throw Error(bag.name() + ": no topic can become an observation; it has: " + namesOfTopics(bag.topics()));
-	RosBagImport import(bag, map, job, options.record_time);
-	ImportResult result = import.run();
-	result.mapping = describeTopicMap(import.usedMap());
+	const RosTopicMap map = options.map_path.empty() ? proposeTopicMap(bag) : readTopicMap(options.map_path, bag.topics());
+	if (map.topics.empty()) refuseForNoTopic(bag, map);
+	const std::unique_ptr<RosBagImport> import = prepared(bag, map, job, options);
+	const std::string mapping = describeTopicMap(import->usedMap());
+	options.show_mapping(mapping);
+	ImportResult result = import->run();
+	result.mapping = mapping;
+	std::set<std::string> topics{map.general.ground_truth, "/tf", "/tf_static"};
+	for (const TopicMapping& taken : map.topics) topics.insert({taken.topic, taken.camera_info});
+	const std::vector<std::string> on_types = bag.notesOnTypes(topics);
+	result.notes.insert(result.notes.begin(), on_types.begin(), on_types.end());
 	result.notes.insert(result.notes.begin(), map.notes.begin(), map.notes.end());
 	return result;
 }

@@ -1,4 +1,5 @@
 #include "RosBagSources.h"
+#include "RosTopicTrial.h"
 #include "StreamStatistics.h"
 
 #include <rosbag/message_instance.h>
@@ -20,34 +21,49 @@ SensorRole roleOfType(const std::string& type)
 	if (type == "sensor_msgs/LaserScan") return SensorRole::lidar;
 	return type == "sensor_msgs/NavSatFix" ? SensorRole::gps : SensorRole::other;
 }
+
+/** What the import proposes counts; what it leaves out is none of a mode's sensors, but joints become wheels by a map. */
+StreamInfo roleIn(const RosTopicMap& map, const std::string& topic, const std::string& type)
+{
+	const auto at = std::find_if(map.topics.begin(), map.topics.end(), [&](const TopicMapping& m) { return m.topic == topic; });
+	StreamInfo info;
+	const bool needs_map = type == "sensor_msgs/JointState";
+	info.role = at != map.topics.end() || needs_map ? roleOfType(type) : SensorRole::other;
+	info.calibrated = at != map.topics.end() && !at->camera_info.empty();
+	if (needs_map) info.remark = "needs a --map in viwo-import rosbag";
+	return info;
+}
 }  // namespace
 
 RecordingInfo inspectRosBag(const std::string& path, const std::function<bool(double)>& proceed)
 {
 	const RosBagFile bag({path});
-	std::set<std::string> topics;
 	size_t total = 0, done = 0;
-	RecordingInfo info{path, "ROS 1 bag", {}, {}};
-	const RosTopicMap map = proposeTopicMap(bag.topics());
+	const RosTopicMap map = proposeTopicMap(bag);
+	RecordingInfo info{path, "ROS 1 bag", {}, map.notes};
+	std::map<std::string, StreamInfo> streams;
+	std::set<std::string> topics;
 	for (const RosTopic& topic : bag.topics())
 	{
+		if (topics.count(topic.name) > 0) continue;
 		if (!isConvertible(topic.type))
 		{
 			info.notes.push_back(topic.name + ": " + std::to_string(topic.messages) + " " + topic.type);
 			continue;
 		}
 		topics.insert(topic.name);
+		streams[topic.name] = roleIn(map, topic.name, topic.type);
 		total += topic.messages;
 	}
+	for (const std::string& note : bag.notesOnTypes(topics)) info.notes.push_back(note);
 	StreamStatistics statistics;
 	bag.visit(topics,
 	          [&](const rosbag::MessageInstance& message)
 	          {
-		          const std::string& name = message.getTopic();
+		          const StreamInfo& known = streams[message.getTopic()];
 		          StreamInfo& stream =
-		              statistics.add(name, message.getDataType(), roleOfType(message.getDataType()), stampOf(readHeader(message), false));
-		          stream.calibrated = std::any_of(map.topics.begin(), map.topics.end(),
-		                                          [&](const TopicMapping& m) { return m.topic == name && !m.camera_info.empty(); });
+		              statistics.add(message.getTopic(), message.getDataType(), known.role, stampOf(readHeader(message), false));
+		          stream.calibrated = known.calibrated, stream.remark = known.remark;
 		          if (!proceed(static_cast<double>(++done) / static_cast<double>(total)))
 			          throw Error("interrupted: " + path + " was not looked through");
 		          return true;

@@ -202,7 +202,7 @@ void RosBagSources::readCamera(RosSource& source)
 		notes_.push_back(label + ": no CameraInfo; put the calibration in with `rawlog-edit --camera-params` before it is used");
 		return;
 	}
-	const bool rectified = source.mapping.topic.find("rect") != std::string::npos;
+	const bool rectified = isRectified(source.mapping.topic);
 	bool calibrated = false;
 	bag_.visit({source.mapping.camera_info},
 	           [&](const rosbag::MessageInstance& message)

@@ -19,8 +19,8 @@ CameraModel::Distortion distortionOf(const sensor_msgs::CameraInfo& info, const 
 	const bool fits = std::all_of(info.D.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(5, info.D.size())), info.D.end(),
 	                              [](double d) { return d == 0; });
 	if (is_polynomial && fits) return CameraModel::Distortion::plumb_bob;
-	throw Error(topic + ": lens model '" + name + "' with " + std::to_string(info.D.size()) +
-	            " coefficients is not supported; calibrate with plumb_bob (5) or equidistant (4), or leave camera_info out of the --map");
+	throw UnusableTopic(topic, "lens model '" + name + "' with " + std::to_string(info.D.size()) + " coefficients is not supported",
+	                    "calibrate with plumb_bob (5) or equidistant (4), or leave camera_info out of the --map");
 }
 }  // namespace
 

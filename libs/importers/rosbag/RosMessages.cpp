@@ -156,7 +156,7 @@ mrpt::obs::CObservation::Ptr scanObservation(const rosbag::MessageInstance& mess
                                              const std::string& label)
 {
 	const auto ros = instance<sensor_msgs::LaserScan>(message);
-	if (ros->ranges.empty()) throw Error(message.getTopic() + ": a scan without ranges; leave the topic out by a --map");
+	if (ros->ranges.empty()) throw UnusableTopic(message.getTopic(), "a scan without ranges");
 	std::vector<float> ranges_m(ros->ranges.begin(), ros->ranges.end());
 	for (float& range_m : ranges_m)
 		if (range_m < ros->range_min) range_m = 0;

@@ -20,6 +20,10 @@ namespace rosbag
 {
 class MessageInstance;
 }
+namespace cv
+{
+class Mat;
+}
 
 /** ROS messages of a bag as plain values and MRPT observations; the only files that see ROS' message headers. All throw Error where the
  * bag's definition of a type is not that of this build. */
@@ -76,14 +80,20 @@ class RosPictures
 	/** File name extension of a message's picture: png for an Image, that of its bytes for a CompressedImage. */
 	static std::string extension(const rosbag::MessageInstance& message);
 
-	/** An Image as PNG (Bayer patterns and YUV 4:2:2 to colour, 16 bit to 8: see notes()), or the bytes of a CompressedImage as they are.
+	/** Width and height of a message's picture. @throws UnusableTopic: an encoding that is no picture in grey or colour. */
+	static std::pair<int, int> sizeOf(const rosbag::MessageInstance& message);
+
+	/** An Image as PNG (Bayer patterns and YUV 4:2:2 to colour, 16 bit to 8: see notes()), or the bytes of a CompressedImage as they are,
+	 *  but for a PNG of 16 bit, which becomes one of 8.
 	 *  @return width and height. @throws Error: an encoding that is no picture in grey or colour, damaged data, cannot be written. */
 	std::pair<int, int> write(const rosbag::MessageInstance& message, const std::string& path);
 
 	const std::vector<std::string>& notes() const { return notes_; }
 
    private:
+	void to8Bit(cv::Mat& pixels, const std::string& topic);
 	int bitsOf16(const std::string& topic, double brightest);
+	std::pair<int, int> writeCompressed(const rosbag::MessageInstance& message, const std::string& path);
 
 	std::map<std::string, int> bits_of_topic_;
 	std::map<std::string, std::pair<int, int>> compressed_size_;

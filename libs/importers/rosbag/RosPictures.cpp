@@ -29,6 +29,7 @@ constexpr Encoding kEncodings[] = {
     {"mono8", CV_8UC1, -1},
     {"8UC1", CV_8UC1, -1},
     {"mono16", CV_16UC1, -1},
+    {"16UC1", CV_16UC1, -1},
     {"bgr8", CV_8UC3, -1},
     {"8UC3", CV_8UC3, -1},
     {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
@@ -48,15 +49,36 @@ constexpr Encoding kEncodings[] = {
 
 const Encoding& encodingOf(const std::string& name, const std::string& topic)
 {
+	// Drivers call both so: grey of an infrared camera, and millimetres.
+	const bool is_depth = name == "16UC1" && isNamedAsDepth(topic);
 	for (const Encoding& encoding : kEncodings)
-		if (name == encoding.name) return encoding;
-	throw Error(topic + ": pictures of encoding '" + name +
-	            "' cannot be taken (grey, colour, Bayer and YUV 4:2:2 can); leave the topic out by a --map");
+		if (name == encoding.name && !is_depth) return encoding;
+	throw UnusableTopic(topic, "pictures of encoding '" + name + "'" + (is_depth ? ", of depth by the topic's name," : "") +
+	                               " cannot be taken (grey, colour, Bayer and YUV 4:2:2 can)");
 }
 
 void requireWritten(bool done, const std::string& path)
 {
 	if (!done) throw Error(path + ": cannot be written; check the space on the disk");
+}
+
+void writePng(const std::string& path, const cv::Mat& pixels)
+{
+	// Level 1: a third of the time of the default, and hardly larger.
+	requireWritten(cv::imwrite(path, pixels, {cv::IMWRITE_PNG_COMPRESSION, 1}), path);
+}
+
+cv::Mat decoded(const std::vector<uint8_t>& data, const std::string& topic)
+{
+	cv::Mat pixels = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+	if (pixels.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged");
+	return pixels;
+}
+
+/** Of the bytes of a PNG or JPEG: PNG's signature, length and name of its first chunk, width and height come before the depth. */
+bool isPngOf16Bit(const std::vector<uint8_t>& data)
+{
+	return data.size() > 24 && data[0] == 0x89 && data[24] == 16;
 }
 
 /** The message's bytes as a matrix, in this machine's byte order. */
@@ -100,41 +122,65 @@ std::string RosPictures::extension(const rosbag::MessageInstance& message)
 	const auto& data = picture->data;
 	if (data.size() > 2 && data[0] == 0xFF && data[1] == 0xD8) return "jpg";
 	if (data.size() > 4 && data[0] == 0x89 && data[1] == 'P' && data[2] == 'N') return "png";
-	throw Error(message.getTopic() + ": a compressed picture that is neither JPEG nor PNG; leave the topic out by a --map");
+	throw UnusableTopic(message.getTopic(), "a compressed picture that is neither JPEG nor PNG");
+}
+
+std::pair<int, int> RosPictures::sizeOf(const rosbag::MessageInstance& message)
+{
+	if (message.isType<sensor_msgs::CompressedImage>())
+	{
+		extension(message);
+		const cv::Mat pixels = decoded(instance<sensor_msgs::CompressedImage>(message)->data, message.getTopic());
+		return {pixels.cols, pixels.rows};
+	}
+	const auto image = instance<sensor_msgs::Image>(message);
+	encodingOf(image->encoding, message.getTopic());
+	return {static_cast<int>(image->width), static_cast<int>(image->height)};
+}
+
+void RosPictures::to8Bit(cv::Mat& pixels, const std::string& topic)
+{
+	if (pixels.depth() != CV_16U) return;
+	double brightest = 0;
+	cv::minMaxLoc(pixels.reshape(1), nullptr, &brightest);
+	pixels.convertTo(pixels, CV_8U, std::ldexp(1, 8 - bitsOf16(topic, brightest)));
+}
+
+std::pair<int, int> RosPictures::writeCompressed(const rosbag::MessageInstance& message, const std::string& path)
+{
+	const std::string& topic = message.getTopic();
+	const auto picture = instance<sensor_msgs::CompressedImage>(message);
+	const auto& data = picture->data;
+	const auto [size, is_new] = compressed_size_.try_emplace(topic);
+	if (is_new || isPngOf16Bit(data))
+	{
+		cv::Mat pixels = decoded(data, topic);
+		size->second = {pixels.cols, pixels.rows};
+		if (pixels.depth() == CV_16U)
+		{
+			to8Bit(pixels, topic);
+			if (pixels.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_BGRA2BGR);
+			writePng(path, pixels);
+			return size->second;
+		}
+	}
+	std::ofstream file(path, std::ios::binary);
+	file.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
+	file.close();
+	requireWritten(static_cast<bool>(file), path);
+	return size->second;
 }
 
 std::pair<int, int> RosPictures::write(const rosbag::MessageInstance& message, const std::string& path)
 {
+	if (message.isType<sensor_msgs::CompressedImage>()) return writeCompressed(message, path);
 	const std::string& topic = message.getTopic();
-	if (message.isType<sensor_msgs::CompressedImage>())
-	{
-		const auto picture = instance<sensor_msgs::CompressedImage>(message);
-		const auto& data = picture->data;
-		const auto [size, is_new] = compressed_size_.try_emplace(topic);
-		if (is_new)
-		{
-			const cv::Mat first = cv::imdecode(data, cv::IMREAD_UNCHANGED);
-			if (first.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged");
-			size->second = {first.cols, first.rows};
-		}
-		std::ofstream file(path, std::ios::binary);
-		file.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
-		file.close();
-		requireWritten(static_cast<bool>(file), path);
-		return size->second;
-	}
 	const auto image = instance<sensor_msgs::Image>(message);
 	const Encoding& encoding = encodingOf(image->encoding, topic);
 	cv::Mat pixels = pixelsOf(*image, encoding, topic);
-	if (pixels.depth() == CV_16U)
-	{
-		double brightest = 0;
-		cv::minMaxLoc(pixels, nullptr, &brightest);
-		pixels.convertTo(pixels, CV_8U, std::ldexp(1, 8 - bitsOf16(topic, brightest)));
-	}
+	to8Bit(pixels, topic);
 	if (encoding.to_bgr >= 0) cv::cvtColor(pixels, pixels, encoding.to_bgr);
-	// Level 1: a third of the time of the default, and hardly larger.
-	requireWritten(cv::imwrite(path, pixels, {cv::IMWRITE_PNG_COMPRESSION, 1}), path);
+	writePng(path, pixels);
 	return {pixels.cols, pixels.rows};
 }
 }  // namespace viwo

@@ -20,7 +20,7 @@ size_t offsetOf(const sensor_msgs::PointCloud2& cloud, const char* name, const s
 	for (const auto& field : cloud.fields)
 		if (field.name == name && field.datatype == sensor_msgs::PointField::FLOAT32 && field.offset + 4 <= cloud.point_step)
 			return field.offset;
-	throw Error(topic + ": its points have no " + name + " of 32-bit floating point; leave the topic out by a --map");
+	throw UnusableTopic(topic, std::string("its points have no ") + name + " of 32-bit floating point");
 }
 
 float floatAt(const uint8_t* bytes)
@@ -36,7 +36,7 @@ mrpt::obs::CObservation::Ptr cloudObservation(const rosbag::MessageInstance& mes
 {
 	const auto ros = instance<sensor_msgs::PointCloud2>(message);
 	const std::string& topic = message.getTopic();
-	if (ros->is_bigendian) throw Error(topic + ": points of big-endian byte order; leave the topic out by a --map");
+	if (ros->is_bigendian) throw UnusableTopic(topic, "points of big-endian byte order");
 	const size_t x = offsetOf(*ros, "x", topic), y = offsetOf(*ros, "y", topic), z = offsetOf(*ros, "z", topic);
 	const size_t rows = ros->height, columns = ros->width;
 	if (rows * ros->row_step > ros->data.size() || columns * ros->point_step > ros->row_step)

@@ -42,8 +42,10 @@ const char* nameOf(SensorRole role)
 
 const StreamInfo* find(const RecordingInfo& info, SensorRole role)
 {
-	const auto at = std::find_if(info.streams.begin(), info.streams.end(), [role](const StreamInfo& s) { return s.role == role; });
-	return at == info.streams.end() ? nullptr : &*at;
+	const StreamInfo* found = nullptr;
+	for (const StreamInfo& stream : info.streams)
+		if (stream.role == role && (found == nullptr || (!found->remark.empty() && stream.remark.empty()))) found = &stream;
+	return found;
 }
 
 std::string verdict(const RecordingInfo& info, const Use& use)
@@ -54,6 +56,8 @@ std::string verdict(const RecordingInfo& info, const Use& use)
 		const StreamInfo* stream = find(info, role);
 		if (stream == nullptr)
 			missing += (missing.empty() ? "" : ", ") + std::string(nameOf(role));
+		else if (!stream->remark.empty())
+			remarks += "; " + stream->name + " " + stream->remark;
 		else if (role == SensorRole::camera && !stream->calibrated)
 			remarks += "; the calibration of " + stream->name + " is missing";
 		else if (role == SensorRole::imu && stream->rate_hz < kMinImuRate_hz)

@@ -74,6 +74,10 @@ void requireReadableBag(const std::string& path)
 	const uint64_t index_at = littleEndian(index->second), size = fs::file_size(path, ignored);
 	if (index_at == 0)
 		throw Error(path + ": unindexed, its recording was not ended; repair it with `rosbag reindex` of a ROS 1 installation");
+	// Of a recorder that nobody sent anything: header and nothing behind it.
+	const auto chunks = fields.find("chunk_count"), connections = fields.find("conn_count");
+	const auto isNone = [&](const auto& count) { return count != fields.end() && count->second == std::string(4, '\0'); };
+	if (index_at == size && isNone(chunks) && isNone(connections)) throw Error(path + ": there are no messages in it");
 	if (index_at >= size)
 		throw Error(path + ": truncated, its index would be at byte " + std::to_string(index_at) + " of " + std::to_string(size) +
 		            "; copy it again, or save what is there with `rosbag reindex`");

@@ -4,6 +4,7 @@
 #include <viwo/core/Pose3.h>
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,7 +62,7 @@ struct RosTopicMap
 	};
 	General general;
 	std::vector<TopicMapping> topics;
-	std::vector<std::string> notes;  //!< of the proposal: what was left out
+	std::vector<std::string> notes;  //!< of the proposal: what was left out, and why
 };
 
 /** "/imu/data (sensor_msgs/Imu), ..." or "none". */
@@ -72,12 +73,18 @@ bool isConvertible(const std::string& type);
 bool isImageType(const std::string& type);
 bool isOdometryType(const std::string& type);
 
+/** True for pictures from which the lens' distortion was taken: a part of the last word is rect, as in /left/image_rect_color. */
+bool isRectified(const std::string& topic);
+/** True for pictures that are no grey or colour by their topic's name: depth, disparity, masks. */
+bool isNamedAsDepth(const std::string& topic);
+
 /** The map as a file has it: [general] and a section per label. @throws Error naming file, section and key. */
 RosTopicMap readTopicMap(const std::string& ini_path, const std::vector<RosTopic>& topics);
 
 /** Every convertible topic under a label that viwo's programs expect: IMU, ODOMETRY, CAM, CAM2, LASER, GPS, POINTS. Of several odometries
- * the one with a wheel's name first; pictures of depth are left out. */
-RosTopicMap proposeTopicMap(const std::vector<RosTopic>& topics);
+ * the one with a wheel's name first; pictures of depth are left out.
+ *  @param objections by topic, why one cannot be taken, or empty. */
+RosTopicMap proposeTopicMap(const std::vector<RosTopic>& topics, const std::map<std::string, std::string>& objections = {});
 
 /** The map as text that readTopicMap() reads. */
 std::string describeTopicMap(const RosTopicMap& map);

@@ -32,6 +32,7 @@ struct StreamInfo
 	double jitter_s = 0;                    //!< 90 % of the intervals are within this of their median
 	double largest_gap_s = 0;
 	bool calibrated = true;  //!< a camera: whether its lens is known
+	std::string remark;      //!< what must be done before it can be used; empty: nothing
 };
 
 /** What is inside of a recording. */

@@ -2,6 +2,7 @@
 
 #include <viwo/importers/ImportJob.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct RosBagOptions
 	std::string map_path;
 	/** Stamps: when the recorder received a message, instead of its header's stamp. */
 	bool record_time = false;
+	/** Called with ImportResult::mapping before anything is written; with the proposal where an error comes before it is complete. */
+	std::function<void(const std::string&)> show_mapping = [](const std::string&) {};
 };
 
 /** Whether ROS bags can be read: viwo was built with Debian's librosbag-storage-dev and the message headers. */
@@ -30,8 +33,8 @@ bool hasRosBagSupport();
  *  | sensor_msgs/JointState | CObservationOdometry: wheel joints to forward speed and yaw rate |
  *  | sensor_msgs/NavSatFix | CObservationGPS (GGA), and X_gps.tum: east-north-up of the first fix |
  *  | sensor_msgs/LaserScan | CObservation2DRangeScan, of a sensor turned to the middle of the sweep |
- *  | sensor_msgs/Image, CompressedImage | CObservationImage in its own file: PNG, or the compressed bytes as they are; CameraInfo gives the
- * lens | | sensor_msgs/PointCloud2 | CObservationPointCloud |
+ *  | sensor_msgs/Image, CompressedImage | CObservationImage in its own file: PNG, or the compressed bytes; CameraInfo gives the lens |
+ *  | sensor_msgs/PointCloud2 | CObservationPointCloud |
  *
  *  O is the base frame: that of the map, else the odometry's child frame, else base_link or base_footprint. Sensor poses are those of tf
  * and tf_static to the header's frame, unless the map gives them. An IMU that neither of them places is levelled by gravity and turned in
