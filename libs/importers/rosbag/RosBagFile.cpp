@@ -23,9 +23,11 @@ bool isTransforms(const std::string& type)
 	return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
 }
 
-bool isRead(const std::string& type)
+/** The lower, the sooner it is that which is meant where a topic has two types. */
+int rank(const std::string& type)
 {
-	return isConvertible(type) || isTransforms(type) || type == "sensor_msgs/CameraInfo" || type == "geometry_msgs/PoseStamped";
+	if (isConvertible(type)) return 0;
+	return isTransforms(type) || type == "sensor_msgs/CameraInfo" || type == "geometry_msgs/PoseStamped" ? 1 : 2;
 }
 
 /** The type that is read of a topic. */
@@ -81,7 +83,7 @@ RosBagFile::RosBagFile(const std::vector<std::string>& paths) : impl_(std::make_
 	for (const auto& [topic, count] : counts) topics_.push_back({topic.first, topic.second, count});
 	std::stable_sort(topics_.begin(), topics_.end(),
 	                 [](const RosTopic& a, const RosTopic& b)
-	                 { return std::pair(a.name, !isRead(a.type)) < std::pair(b.name, !isRead(b.type)); });
+	                 { return std::pair(a.name, rank(a.type)) < std::pair(b.name, rank(b.type)); });
 }
 
 RosBagFile::~RosBagFile() = default;
