@@ -74,8 +74,10 @@ Command addImport(CLI::App& cli)
 	declare(*command, *arguments);
 	command->footer(
 	    "Examples:\n"
-	    "  viwo-calibrate import --kalibr camchain-imucam.yaml --imu imu.yaml --odom 0 0.3 -0.1 90 0 90 -o rig.ini\n"
-	    "  viwo-calibrate import --ros left.yaml -o camera.ini");
+	    "  viwo-calibrate import --kalibr camchain-imucam.yaml --imu imu.yaml --odom 0 0.3 -0.1 90 -90 0 -o rig.ini\n"
+	    "  viwo-calibrate import --ros left.yaml -o camera.ini\n"
+	    "--odom of the first: an IMU with a camera's axes (x right, y down, z forward), 0.3 m above the robot's origin and 0.1 m ahead of "
+	    "it.");
 	return {command, [arguments] { return importFiles(*arguments); }};
 }
 }  // namespace viwo::calibrate

@@ -14,7 +14,7 @@ int main(int argc, char** argv)
 	const std::vector<calibrate::Command> commands{calibrate::addImport(cli), calibrate::addEstimate(cli), calibrate::addAllan(cli)};
 	cli.footer(
 	    "Examples:\n"
-	    "  viwo-calibrate import --kalibr camchain-imucam.yaml --imu imu.yaml --odom 0 0.3 -0.1 90 0 90 -o rig.ini\n"
+	    "  viwo-calibrate import --kalibr camchain-imucam.yaml --imu imu.yaml --odom 0 0.3 -0.1 90 -90 0 -o rig.ini\n"
 	    "  viwo-calibrate import --ros left.yaml -o camera.ini\n"
 	    "  viwo-calibrate estimate -i calibration.rawlog -o rig.ini --html report.html\n"
 	    "  viwo-calibrate estimate -i calibration.rawlog -t lidar.tum --rig measured.ini -o rig.ini\n"

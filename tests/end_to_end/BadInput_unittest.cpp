@@ -60,6 +60,8 @@ TEST_F(BadInput, FilesThatAreNoRawlog)
 	expectFailure(folder_.file("text.rawlog"), {"text.rawlog", "not a rawlog"});
 	writeFile(folder_.file("zstd.rawlog"), std::string("\x28\xB5\x2F\xFD\x04\x00more", 10));
 	expectFailure(folder_.file("zstd.rawlog"), {"zstd.rawlog", "zstd", "unpack"});
+	writeFile(folder_.file("run.bag"), "#ROSBAG V2.0\nand so on");
+	expectFailure(folder_.file("run.bag"), {"run.bag", "a ROS bag", "viwo-import rosbag"});
 	expectFailure(folder_.path(), {"folder"});
 	expectNothingKept();
 }

@@ -184,6 +184,24 @@ TEST_F(CalibrationFilesTest, ImplausibleNoiseIsTold)
 	EXPECT_EQ(doubtOnNoise("x", 1e-3, 1e-5, 1e-2, 0), "");
 }
 
+TEST_F(CalibrationFilesTest, AModelOfTheImusAxesIsSaidNotToBeApplied)
+{
+	const auto warningsOf = [&](const std::string& more)
+	{
+		CalibrationFiles files = kalibr();
+		files.T_BO = Pose3();
+		files.kalibr_imu = write(folder_, "imu.yaml", std::string(kImu) + more);
+		return importCalibration(files).warnings;
+	};
+	EXPECT_TRUE(warningsOf("model: calibrated\n").empty());
+	const auto scaled = warningsOf(
+	    "accelerometers:\n  M:\n  - [1.03, 0, 0]\n  - [0.02, 0.98, 0]\n  - [0, 0, 1]\n"
+	    "gyroscopes:\n  M: [[1, 0, 0], [0, 1, 0], [-0.04, 0, 1]]\nmodel: scale-misalignment\n");
+	ASSERT_EQ(scaled.size(), 1u);
+	for (const char* part : {"imu.yaml: model: scale-misalignment", "only the noise is taken", "0.04 from the identity", "not applied"})
+		EXPECT_NE(scaled[0].find(part), std::string::npos) << scaled[0];
+}
+
 TEST_F(CalibrationFilesTest, BadFilesAreToldInOneLine)
 {
 	expectError([&] { importCalibration(kalibr("cam2")); }, {"camchain.yaml", "cam2: camera_model", "omni", "pinhole-radtan"});
@@ -199,8 +217,27 @@ TEST_F(CalibrationFilesTest, BadFilesAreToldInOneLine)
 	expectBad("461.629", "-461.629", {"cam0: intrinsics", "focal length"});
 	expectBad("[0.0, -1.0, 0.0, 0.07]", "[0.0, -1.1, 0.0, 0.07]", {"cam0: T_cam_imu", "orthonormal"});
 	expectBad("radtan", "fov", {"cam0: distortion_model", "fov"});
-	expectBad("-0.0081", "soon", {"cam0: timeshift_cam_imu"});
+	for (const char* number : {"soon", ".nan", "-.inf"})
+		expectBad("-0.0081", number, {"cam0: timeshift_cam_imu", number, "not a finite number"});
+	for (const char* number : {"12", "-1e300"})
+		expectBad("-0.0081", number, {"camchain.yaml: cam0: timeshift_cam_imu", "between -10 and 10 s"});
+	expectBad("362.680", "3626.80", {"camchain.yaml: cam0: intrinsics", "cx 3626.8", "752 x 480"});
+	expectBad("461.629, 460.152", "3, 3", {"cam0: intrinsics", "fx 3.0"});
+	expectBad("[752, 480]", "[752.5, 480]", {"cam0: resolution", "whole pixels"});
+	expectBad("[752, 480]", "[0, 480]", {"cam0: resolution", "whole pixels"});
+	expectBad("[0.0, 0.0, 0.0, 1.0]", "[0.04, 0.0, 0.0, 0.5]", {"camchain.yaml: cam0: T_cam_imu", "last row", "0 0 0 1"});
 	expectBad("cam0:", "cam0: [", {"camchain.yaml", "not valid YAML"});
+	const auto expectBadRos = [&](const std::string& width, const std::string& cx, std::initializer_list<std::string> parts)
+	{
+		CalibrationFiles files;
+		files.ros_camera_info = write(folder_, "left.yaml",
+		                              "image_width: " + width + "\nimage_height: 480\ncamera_matrix:\n  data: [401.5, 0, " + cx +
+		                                  ", 0, 402.5, 241.75, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+		                                  "distortion_coefficients:\n  data: [0, 0, 0, 0, 0]\n");
+		expectError([&] { importCalibration(files); }, parts);
+	};
+	expectBadRos("640", "3182.5", {"left.yaml: camera_matrix", "cx 3182.5", "640 x 480"});
+	expectBadRos("640.5", "318.25", {"left.yaml: image_width, image_height", "whole pixels"});
 	CalibrationFiles files;
 	expectError([&] { importCalibration(files); }, {"no calibration file"});
 	files.kalibr_imu = write(folder_, "imu.yaml", replaced(kImu, "0.00024", "-1"));
@@ -223,6 +260,19 @@ TEST_F(CalibrationFilesTest, ProgramWritesARigAndFailsInOneLine)
 	const std::string bytes = readFile(rig);
 	ASSERT_EQ(runProgram(program, arguments).status, 0);
 	EXPECT_EQ(readFile(rig), bytes);
+
+	// What help and manual say of these numbers.
+	for (const auto& [odom, R_OB] :
+	     {std::pair(std::vector<std::string>{"0", "0.3", "-0.1", "90", "-90", "0"}, forwardOpticalAxes()),
+	      std::pair(std::vector<std::string>{"-0.1", "0", "-0.3", "0", "0", "0"}, Eigen::Quaterniond::Identity())})
+	{
+		std::vector<std::string> told{"import", "--kalibr", folder_.file("camchain.yaml"), "-o", folder_.file("told.ini"), "--odom"};
+		told.insert(told.end(), odom.begin(), odom.end());
+		ASSERT_EQ(runProgram(program, told).status, 0);
+		const Pose3 T_OB = RigFile::load(folder_.file("told.ini")).imu->mounting.pose();
+		EXPECT_LT((T_OB.p - Eigen::Vector3d(0.1, 0, 0.3)).norm(), 1e-9);
+		EXPECT_LT(T_OB.R.angularDistance(R_OB), 1e-9);
+	}
 
 	const ProgramResult refused = runProgram(program, {"import", "--kalibr", folder_.file("camchain.yaml"), "--camera", "cam2", "-o", rig});
 	EXPECT_EQ(refused.status, 1);

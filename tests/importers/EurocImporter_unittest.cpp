@@ -80,6 +80,37 @@ TEST(EurocImporter, WithoutOdometryOIsTheBody)
 	expectSamePose(readCalibration(folder.file("x.rawlog"), {}, true, true).T_OB, {}, 1e-9);
 }
 
+TEST(EurocImporter, WhatIsMissingOrNotUsedIsTold)
+{
+	const TempFolder folder;
+	writeEuroc(folder);
+	const auto notes = [&]
+	{
+		std::string text;
+		for (const std::string& note : importEuroc({folder.path(), folder.file("x.rawlog")}).notes) text += note + "\n";
+		return text;
+	};
+	const auto holds = [](const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; };
+	const std::string complete = notes();
+	EXPECT_TRUE(holds(complete, "acc_walk_m_s3_sqrtHz = 0.003 in the configuration\n")) << complete;
+	EXPECT_FALSE(holds(complete, "left out")) << complete;
+
+	for (const auto& [t_ns, file] : {std::pair(300000123LL, "first"), std::pair(700000123LL, "second")})
+		ASSERT_TRUE(std::filesystem::remove(folder.file(format("mav0/cam0/data/%lld.png", kStart_ns + t_ns)))) << file;
+	write(folder, "mav0/cam1/data.csv", "#t\n");
+	write(folder, "mav0/imu0/sensor.yaml",
+	      yamlPose({}) + "gyroscope_noise_density: 1.7e-04\ngyroscope_random_walk: .nan\naccelerometer_noise_density: 2e-3\n");
+	const std::string told = notes();
+	EXPECT_TRUE(holds(told, "left out, as not there: 2 of 21 images, the first is ")) << told;
+	EXPECT_TRUE(holds(told, "300000123.png\n")) << told;
+	EXPECT_TRUE(holds(told, "cam1 is left out")) << told;
+	EXPECT_TRUE(holds(told,
+	                  "set gyro_noise_rad_s_sqrtHz = 0.00017, acc_noise_m_s2_sqrtHz = 0.002 in the configuration; the sequence does "
+	                  "not say gyro_walk_rad_s2_sqrtHz, acc_walk_m_s3_sqrtHz"))
+	    << told;
+	EXPECT_EQ(RawlogContent(folder.file("x.rawlog")).images.size(), 19u);
+}
+
 TEST(EurocImporter, ReadsEquidistantLenses)
 {
 	const TempFolder folder;
@@ -114,7 +145,7 @@ TEST(EurocImporter, SaysWhatIsWrongInOneLine)
 	damaged("mav0/imu0/data.csv", "1.5,2,3,4,5,6,7\n", {"imu0/data.csv:1", "'1.5' is not a whole number"});
 	damaged("mav0/imu0/data.csv", "#t\n", {"imu0/data.csv", "no data"});
 	damaged("mav0/odom0/data.csv", "1,2\n", {"odom0/data.csv:1", "v [m/s]"});
-	damaged("mav0/cam0/data.csv", "1,absent.png\n", {"cam0/data.csv:1", "absent.png is missing"});
+	damaged("mav0/cam0/data.csv", "1,absent.png\n", {"cam0/data.csv", "none of its images", "absent.png", "unpack"});
 	damaged("mav0/cam0/sensor.yaml", yamlPose({}) + "camera_model: omni\n", {"cam0/sensor.yaml", "'omni' is not known"});
 	damaged("mav0/cam0/sensor.yaml",
 	        yamlPose({}) + "camera_model: pinhole\nresolution: [65, 48]\nintrinsics: [50, 50, 31, 23]\ndistortion_model: none\n",

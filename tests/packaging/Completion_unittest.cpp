@@ -82,9 +82,9 @@ TEST_F(Completion, Commands)
 	EXPECT_EQ(offered({"viwo-import", "euroc", "--rec"}), Words{}) << "an option of rosbag";
 	EXPECT_EQ(offered({"viwo-import", "euroc", "--qui"}), Words{"--quiet"}) << "of all commands";
 	EXPECT_EQ(offered({"viwo-import", "rosbag", "b.bag", "-o", "ro"}), Words{}) << "a file, not a command";
-	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "0", "9"}), Words{}) << "the sixth number";
-	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "0", "90", "--ouT"}), Words{});
-	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "0", "90", "--ou"}), Words{"--output"});
+	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "-90", "9"}), Words{}) << "the sixth number";
+	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "-90", "90", "--ouT"}), Words{});
+	EXPECT_EQ(offered({"viwo-calibrate", "import", "--odom", "0", "0.3", "-0.1", "90", "-90", "90", "--ou"}), Words{"--output"});
 }
 }  // namespace
 }  // namespace viwo::testing

@@ -45,12 +45,19 @@ TEST_F(RawlogDamage, MissingEmptyOrSomethingElse)
 {
 	expectError([&] { RawlogReader(folder.file("none.rawlog")); }, {folder.file("none.rawlog"), "no such file"});
 	expectError([&] { RawlogReader(folder.path()); }, {folder.path(), "folder"});
+	for (const auto& [sensor, layout] : {std::pair("mav0", "euroc"), std::pair("oxts", "kitti")})
+	{
+		const std::string recording = folder.file(layout);
+		std::filesystem::create_directories(std::filesystem::path(recording) / sensor);
+		expectError([&] { RawlogReader reader(recording); }, {recording, std::string("viwo-import ") + layout + " " + recording});
+	}
 	expectBadFile("", {path, "empty"});
 	expectBadFile("This is a text, and a long one it is, longer than any name of a class of MRPT could ever be, with blanks and all.\n",
 	              {path, "not a rawlog"});
 	expectBadFile("\x89PNG\r\n\x1a\n and so on", {path, "not a rawlog"});
 	expectBadFile(std::string(1000, '\0'), {path, "not a rawlog"});
 	expectBadFile(std::string("\x28\xB5\x2F\xFD\x04\x00more", 10), {path, "zstd"});
+	expectBadFile("#ROSBAG V2.0\nE\0", {path, "a ROS bag", "viwo-import rosbag " + path, ".rawlog"});
 	expectBadFile(std::string("PK\x03\x04\x14\x00more", 10), {path, "zip", "unzip"});
 	PlainRawlog pose;
 	pose << mrpt::poses::CPose2D(1, 2, 3);

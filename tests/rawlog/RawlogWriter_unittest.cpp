@@ -169,6 +169,13 @@ TEST_F(RawlogWriterTest, NothingAppearsWithoutClose)
 	expectError([&] { RawlogWriter(folder.file("none/x.rawlog")); }, {"none/x.rawlog", "no folder"});
 }
 
+TEST_F(RawlogWriterTest, AFileInTheWayOfTheImagesIsTold)
+{
+	writeFile(folder.file("x_Images"), "");
+	RawlogWriter writer(folder.file("x.rawlog"));
+	expectError([&] { writer.imagesFolder(); }, {folder.file("x_Images"), "a file of this name is in the way", "move it away"});
+}
+
 TEST_F(RawlogWriterTest, ImagesOfARawlogThatDoesNotAppearAreRemoved)
 {
 	for (const bool earlier_images : {false, true})

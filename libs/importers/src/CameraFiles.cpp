@@ -6,6 +6,7 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "YamlMap.h"
@@ -14,6 +15,9 @@ namespace viwo
 {
 namespace
 {
+/** What camera_time_offset_s of a rig may be. */
+constexpr double kLargestShift_s = 10;
+
 /** A matrix as a list of rows. */
 std::vector<double> rowsOf(const YamlMap& yaml, const std::string& key)
 {
@@ -57,6 +61,8 @@ KalibrCamera readKalibrCamera(const std::string& path, const std::string& camera
 	                            yaml->numbers("intrinsics", (*yaml)["intrinsics"], 4, 4), distortion, coefficients);
 	if ((*yaml)["T_cam_imu"]) result.T_CB = yaml->rigidTransform("T_cam_imu", rowsOf(*yaml, "T_cam_imu"));
 	result.time_offset_s = (*yaml)["timeshift_cam_imu"] ? yaml->number("timeshift_cam_imu") : 0;
+	if (std::abs(result.time_offset_s) > kLargestShift_s)
+		yaml->fail("timeshift_cam_imu", "not between -10 and 10 s, as a rig's clocks are; check that both were stamped by one computer");
 	return result;
 }
 
@@ -72,8 +78,8 @@ CameraModel readRosCameraInfo(const std::string& path)
 	                [](double k) { return k != 0; }))
 		yaml.fail("distortion_coefficients", "more than " + std::to_string(most) + " of them are not 0; calibrate with fewer");
 	coefficients.resize(distortion == CameraModel::Distortion::none ? 0 : std::min(most, coefficients.size()));
-	return pinholeModel(yaml, {yaml.number("image_width"), yaml.number("image_height")}, {K[0], K[4], K[2], K[5]}, distortion,
-	                    coefficients);
+	return pinholeModel(yaml, {yaml.number("image_width"), yaml.number("image_height")}, {K[0], K[4], K[2], K[5]}, distortion, coefficients,
+	                    {"image_width, image_height", "camera_matrix"});
 }
 
 CameraModel readMrptCamera(const std::string& path)

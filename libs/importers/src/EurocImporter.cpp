@@ -3,6 +3,7 @@
 #include "SensorYaml.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/importers/EurocImporter.h>
 
 #include <filesystem>
@@ -64,28 +65,50 @@ class EurocSequence
 		for (const CsvRow& row : readStampedCsv(file("imu0/data.csv"), 6, "t [ns], wx wy wz [rad/s], ax ay az [m/s^2]"))
 			recording.imu.push_back(
 			    {row.t_ns, {row.number(3), row.number(4), row.number(5)}, {row.number(0), row.number(1), row.number(2)}});
-		if (yaml.gyro_noise_rad_s_sqrtHz && yaml.gyro_walk_rad_s2_sqrtHz && yaml.acc_noise_m_s2_sqrtHz && yaml.acc_walk_m_s3_sqrtHz)
+		noteOnNoise(yaml);
+	}
+
+	void noteOnNoise(const SensorYaml& yaml)
+	{
+		std::ostringstream known;
+		std::string unknown;
+		const auto tell = [&](const char* key, const std::optional<double>& density)
 		{
-			std::ostringstream text;
-			text << "a rawlog cannot hold the IMU's noise: set gyro_noise_rad_s_sqrtHz = " << *yaml.gyro_noise_rad_s_sqrtHz
-			     << ", gyro_walk_rad_s2_sqrtHz = " << *yaml.gyro_walk_rad_s2_sqrtHz
-			     << ", acc_noise_m_s2_sqrtHz = " << *yaml.acc_noise_m_s2_sqrtHz << ", acc_walk_m_s3_sqrtHz = " << *yaml.acc_walk_m_s3_sqrtHz
-			     << " in the configuration";
-			notes_.push_back(text.str());
-		}
+			if (density)
+				known << (known.tellp() > 0 ? ", " : "") << key << " = " << *density;
+			else
+				unknown += (unknown.empty() ? "" : ", ") + std::string(key);
+		};
+		tell("gyro_noise_rad_s_sqrtHz", yaml.gyro_noise_rad_s_sqrtHz);
+		tell("gyro_walk_rad_s2_sqrtHz", yaml.gyro_walk_rad_s2_sqrtHz);
+		tell("acc_noise_m_s2_sqrtHz", yaml.acc_noise_m_s2_sqrtHz);
+		tell("acc_walk_m_s3_sqrtHz", yaml.acc_walk_m_s3_sqrtHz);
+		if (known.tellp() > 0)
+			notes_.push_back("a rawlog cannot hold the IMU's noise: set " + known.str() + " in the configuration" +
+			                 (unknown.empty() ? "" : "; the sequence does not say " + unknown));
 	}
 
 	void readImages(Recording& recording, const Pose3& T_OB)
 	{
 		recording.camera = readCameraYaml(file("cam0/sensor.yaml"));
 		recording.T_OC = T_OB * readSensorYaml(file("cam0/sensor.yaml")).T_BS;
+		std::vector<std::string> missing;
 		for (const CsvRow& row : readStampedCsv(file("cam0/data.csv"), 1, "t [ns], file name"))
 		{
 			const std::string path = file("cam0/data/" + row.cells[0]);
 			std::error_code ignored;
-			if (!fs::is_regular_file(path, ignored)) throw Error(row.where + ": the image " + path + " is missing");
-			recording.images.push_back({row.t_ns, path});
+			if (fs::is_regular_file(path, ignored))
+				recording.images.push_back({row.t_ns, path});
+			else
+				missing.push_back(path);
 		}
+		if (recording.images.empty())
+			throw Error(file("cam0/data.csv") + ": none of its images is there, not even " + missing.front() +
+			            "; copy or unpack the sequence again");
+		if (!missing.empty())
+			notes_.push_back("left out, as not there: " + std::to_string(missing.size()) + " of " +
+			                 counted(missing.size() + recording.images.size(), "image") + ", the first is " + missing.front());
+		if (has("cam1")) notes_.emplace_back("cam1 is left out: one camera is used, cam0");
 	}
 
 	void readGroundTruth(Recording& recording, const Pose3& T_BO)

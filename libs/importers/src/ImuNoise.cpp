@@ -18,6 +18,37 @@ std::string doubtOnNoise(const std::string& where, double density, double least,
 	return where + mrpt::format(" = %g is not what an IMU has (%g to %g); check its unit", density, least, most);
 }
 
+namespace
+{
+/** Entries of the matrices M of Kalibr's intrinsic models against those of the identity. */
+double largestOfM(const YamlMap& imu)
+{
+	double largest = 0;
+	for (const char* triad : {"accelerometers", "gyroscopes"})
+	{
+		const auto sensor = imu.map(triad);
+		const YAML::Node M = sensor ? (*sensor)["M"] : YAML::Node();
+		if (!M || !M.IsSequence()) continue;
+		for (size_t row = 0; row < M.size(); ++row)
+		{
+			const std::vector<double> values = sensor->numbers("M", M[row], 3, 3);
+			for (size_t column = 0; column < 3; ++column) largest = std::max(largest, std::abs(values[column] - (row == column ? 1 : 0)));
+		}
+	}
+	return largest;
+}
+
+/** Kalibr calibrates the IMU's axes as well where it is asked to. */
+void warnOfModel(const YamlMap& imu, std::vector<std::string>& warnings)
+{
+	const std::string model = imu["model"] ? imu.word("model") : imu.map("accelerometers") ? "scale-misalignment" : "calibrated";
+	if (model == "calibrated") return;
+	warnings.push_back(imu.path() + mrpt::format(": model: %s: only the noise is taken; scale and misalignment of its axes (matrices M, up "
+	                                             "to %.3g from the identity) are not applied: correct the samples in the driver",
+	                                             model.c_str(), largestOfM(imu)));
+}
+}  // namespace
+
 RigImu readKalibrImu(const std::string& path, std::vector<std::string>& warnings)
 {
 	const YamlMap file = YamlMap::load(path);
@@ -43,6 +74,7 @@ RigImu readKalibrImu(const std::string& path, std::vector<std::string>& warnings
 		if (const std::string doubt = doubtOnNoise(path + ": " + d.key, value, d.least, d.most, rate_hz); !doubt.empty())
 			warnings.push_back(doubt);
 	}
+	warnOfModel(yaml, warnings);
 	return imu;
 }
 }  // namespace viwo

@@ -2,6 +2,7 @@
 
 #include <viwo/core/Error.h>
 #include <viwo/core/NumberText.h>
+#include <viwo/rawlog/RawlogWriter.h>
 
 #include <algorithm>
 #include <array>
@@ -52,7 +53,7 @@ std::string YamlMap::word(const std::string& key) const
 double YamlMap::number(const std::string& key) const
 {
 	const auto value = optionalNumber(key);
-	if (!value) fail(key, "a number is missing");
+	if (!value) fail(key, node_[key] && node_[key].IsScalar() ? "'" + word(key) + "' is not a finite number" : "a number is missing");
 	return *value;
 }
 
@@ -60,7 +61,7 @@ std::optional<double> YamlMap::optionalNumber(const std::string& key) const
 {
 	double value = 0;
 	const YAML::Node node = node_[key];
-	if (!node || !node.IsScalar() || !YAML::convert<double>::decode(node, value)) return std::nullopt;
+	if (!node || !node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) return std::nullopt;
 	return value;
 }
 
@@ -87,6 +88,8 @@ Pose3 YamlMap::rigidTransform(const std::string& key, const std::vector<double>&
 	R << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
 	if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0)
 		fail(key, "its rotation is not orthonormal");
+	if (std::abs(v[12]) + std::abs(v[13]) + std::abs(v[14]) + std::abs(v[15] - 1) > 1e-6)
+		fail(key, "its last row is not 0 0 0 1; a matrix is given row by row, with the translation in the last column");
 	return {Eigen::Quaterniond(R).normalized(), Eigen::Vector3d(v[3], v[7], v[11])};
 }
 
@@ -101,13 +104,22 @@ CameraModel::Distortion lensModel(const YamlMap& yaml, const std::string& key)
 }
 
 CameraModel pinholeModel(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
-                         CameraModel::Distortion distortion, const std::vector<double>& coefficients)
+                         CameraModel::Distortion distortion, const std::vector<double>& coefficients, const PinholeKeys& keys)
 {
 	const auto& f = focal_and_centre_px;
-	if (size_px[0] < 1 || size_px[1] < 1) yaml.fail("resolution", "not a size in pixels");
-	if (f[0] <= 0 || f[1] <= 0) yaml.fail("intrinsics", "focal length not above 0");
+	for (const double n_px : size_px)
+		if (!(n_px >= 1 && n_px <= 1e5) || n_px != std::floor(n_px)) yaml.fail(keys.size, "not a size in whole pixels");
+	if (f[0] <= 0 || f[1] <= 0) yaml.fail(keys.focal_and_centre, "focal length not above 0");
 	std::array<double, 5> k{};
 	std::copy(coefficients.begin(), coefficients.end(), k.begin());
-	return {static_cast<int>(size_px[0]), static_cast<int>(size_px[1]), f[0], f[1], f[2], f[3], distortion, k};
+	const CameraModel camera(static_cast<int>(size_px[0]), static_cast<int>(size_px[1]), f[0], f[1], f[2], f[3], distortion, k);
+	try
+	{
+		return fromMrpt(toMrpt(camera));  // as an image of a rawlog will be judged
+	}
+	catch (const Error& e)
+	{
+		yaml.fail(keys.focal_and_centre, e.what());
+	}
 }
 }  // namespace viwo

@@ -28,6 +28,7 @@ class YamlMap
 
 	std::string word(const std::string& key) const;
 	double number(const std::string& key) const;
+	/** Nothing where it is missing or not finite. */
 	std::optional<double> optionalNumber(const std::string& key) const;
 	std::vector<double> numbers(const std::string& key, const YAML::Node& node, size_t min_count, size_t max_count) const;
 
@@ -49,7 +50,13 @@ class YamlMap
 /** The distortion under its many names: radtan, equidistant, ... @throws Error for others. */
 CameraModel::Distortion lensModel(const YamlMap& yaml, const std::string& key);
 
-/** @param size_px width, height. @param focal_and_centre_px fx fy cx cy. @throws Error under the keys `resolution` and `intrinsics`. */
+/** Under which keys a message names what is wrong. */
+struct PinholeKeys
+{
+	std::string size = "resolution", focal_and_centre = "intrinsics";
+};
+
+/** @param size_px width, height. @param focal_and_centre_px fx fy cx cy. @throws Error naming the key: what fromMrpt() would not take. */
 CameraModel pinholeModel(const YamlMap& yaml, const std::vector<double>& size_px, const std::vector<double>& focal_and_centre_px,
-                         CameraModel::Distortion distortion, const std::vector<double>& coefficients);
+                         CameraModel::Distortion distortion, const std::vector<double>& coefficients, const PinholeKeys& keys = {});
 }  // namespace viwo

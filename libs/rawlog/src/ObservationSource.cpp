@@ -52,6 +52,8 @@ std::string unregisteredClass(const std::string& mrpt_message)
 	return mrpt_message.substr(begin + before.size(), end - begin - before.size());
 }
 
+const std::string kBagMark = "#ROSBAG V";
+
 /** Of the ways to pack a file, rawlogs know gzip alone. */
 void refuseOtherCompression(const std::string& path, const std::string& first_bytes)
 {
@@ -80,6 +82,9 @@ ObservationSource::ObservationSource(const std::string& path, const ActionOdomet
 	if (ignored) file_bytes_ = 0;
 	refuseOtherCompression(path, archive_.peek(4));
 	if (archive_.atEnd()) throw Error(path + ": no entries in this rawlog; record or copy it again");
+	if (archive_.peek(kBagMark.size()) == kBagMark)
+		throw Error(path + ": a ROS bag, not a rawlog; make one of it first: viwo-import rosbag " + path + " -o " +
+		            fs::path(path).stem().string() + ".rawlog");
 	if (headAt(archive_) == Head::something_else) throw Error(path + ": not a rawlog (it does not start with an MRPT object)");
 }
 

@@ -11,11 +11,25 @@ namespace viwo
 {
 namespace
 {
+[[noreturn]] void refuseFolder(const std::string& path)
+{
+	const auto has = [&path](const char* name)
+	{
+		std::error_code ignored;
+		return fs::is_directory(fs::path(path) / name, ignored);
+	};
+	const auto convertBy = [&path](const std::string& kind, const std::string& command)
+	{ return Error(path + ": a " + kind + ", not a rawlog; make one of it first: viwo-import " + command + " " + path + " -o X.rawlog"); };
+	if (has("mav0") || has("imu0")) throw convertBy("sequence in EuRoC's layout", "euroc");
+	if (has("oxts")) throw convertBy("drive in KITTI's layout", "kitti");
+	throw Error(path + ": is a folder, not a rawlog");
+}
+
 void requireReadableFile(const std::string& path)
 {
 	std::error_code error;
 	if (!fs::exists(path, error)) throw Error(path + ": no such file; check the name of the rawlog");
-	if (fs::is_directory(path, error)) throw Error(path + ": is a folder, not a rawlog");
+	if (fs::is_directory(path, error)) refuseFolder(path);
 	if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0)
 		throw Error(path + ": the file is empty; record or copy it again");
 }

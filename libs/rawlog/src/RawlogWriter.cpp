@@ -55,6 +55,11 @@ const std::string& RawlogWriter::imagesFolder()
 		const std::string folder = (rawlog.parent_path() / (rawlog.stem().string() + "_Images")).string();
 		std::error_code error;
 		impl_->made_folder = fs::create_directories(folder, error);
+		std::error_code ignored;
+		if (error && fs::exists(fs::symlink_status(folder, ignored)))
+			throw Error(folder +
+			            ": the images' folder cannot be made, a file of this name is in the way; move it away, or give the rawlog "
+			            "another name");
 		if (error) throw Error(folder + ": cannot create this folder: " + error.message());
 		impl_->images_folder = folder;
 	}
