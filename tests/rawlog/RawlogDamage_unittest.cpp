@@ -1,6 +1,7 @@
 #include <mrpt/poses/CPose2D.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "ExpectError.h"
 #include "RawlogFixture.h"
