@@ -80,7 +80,8 @@ class RosPictures
 	/** File name extension of a message's picture: png for an Image, that of its bytes for a CompressedImage. */
 	static std::string extension(const rosbag::MessageInstance& message);
 
-	/** Width and height of a message's picture. @throws UnusableTopic: an encoding that is no picture in grey or colour. */
+	/** Width and height of a message's picture, 0 of one that cannot be decoded. @throws UnusableTopic: an encoding that is no picture in
+	 * grey or colour. */
 	static std::pair<int, int> sizeOf(const rosbag::MessageInstance& message);
 
 	/** An Image as PNG (Bayer patterns and YUV 4:2:2 to colour, 16 bit to 8: see notes()), or the bytes of a CompressedImage as they are,

@@ -68,13 +68,6 @@ void writePng(const std::string& path, const cv::Mat& pixels)
 	requireWritten(cv::imwrite(path, pixels, {cv::IMWRITE_PNG_COMPRESSION, 1}), path);
 }
 
-cv::Mat decoded(const std::vector<uint8_t>& data, const std::string& topic)
-{
-	cv::Mat pixels = cv::imdecode(data, cv::IMREAD_UNCHANGED);
-	if (pixels.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged");
-	return pixels;
-}
-
 /** Of the bytes of a PNG or JPEG: PNG's signature, length and name of its first chunk, width and height come before the depth. */
 bool isPngOf16Bit(const std::vector<uint8_t>& data)
 {
@@ -130,7 +123,7 @@ std::pair<int, int> RosPictures::sizeOf(const rosbag::MessageInstance& message)
 	if (message.isType<sensor_msgs::CompressedImage>())
 	{
 		extension(message);
-		const cv::Mat pixels = decoded(instance<sensor_msgs::CompressedImage>(message)->data, message.getTopic());
+		const cv::Mat pixels = cv::imdecode(instance<sensor_msgs::CompressedImage>(message)->data, cv::IMREAD_UNCHANGED);
 		return {pixels.cols, pixels.rows};
 	}
 	const auto image = instance<sensor_msgs::Image>(message);
@@ -154,7 +147,8 @@ std::pair<int, int> RosPictures::writeCompressed(const rosbag::MessageInstance& 
 	const auto [size, is_new] = compressed_size_.try_emplace(topic);
 	if (is_new || isPngOf16Bit(data))
 	{
-		cv::Mat pixels = decoded(data, topic);
+		cv::Mat pixels = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+		if (pixels.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged");
 		size->second = {pixels.cols, pixels.rows};
 		if (pixels.depth() == CV_16U)
 		{

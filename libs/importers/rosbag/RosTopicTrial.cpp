@@ -56,7 +56,8 @@ void leaveOutForeignCameraInfo(const RosBagFile& bag, TopicMapping& mapping, std
 	first(mapping.topic, [&](const rosbag::MessageInstance& message) { size = RosPictures::sizeOf(message); });
 	first(mapping.camera_info,
 	      [&](const rosbag::MessageInstance& message) { camera = readCameraInfo(message, isRectified(mapping.topic)); });
-	if (!camera || camera->width_px() == 0 || std::pair(camera->width_px(), camera->height_px()) == size) return;
+	if (!camera || camera->width_px() == 0 || camera->height_px() == 0 || size.first == 0) return;
+	if (std::pair(camera->width_px(), camera->height_px()) == size) return;
 	notes.push_back(mapping.camera_info + " is left out for " + mapping.topic + ": it is for " + std::to_string(camera->width_px()) + "x" +
 	                std::to_string(camera->height_px()) + " pixels, not for " + std::to_string(size.first) + "x" +
 	                std::to_string(size.second));

@@ -86,6 +86,21 @@ TEST_F(RosBagOddTopics, PicturesThatAreNoneAreLeftOut)
 	expectError([&] { import(writeMap("[CAM]\ntopic = /b/image\n")); }, {"/b/image", "32FC1", "--map"});
 }
 
+// That nothing is damaged is for the import to see.
+TEST_F(RosBagOddTopics, ADamagedPictureDoesNotKeepViwoInfoFromCounting)
+{
+	writeBag(
+	    [](rosbag::Bag& bag)
+	    {
+		    auto message = stamped<sensor_msgs::CompressedImage>(1, "cam");
+		    message.data = {0xFF, 0xD8, 'n', 'o', 'n', 'e'};
+		    bag.write("/cam/image_raw/compressed", bagTime(1), message);
+		    bag.write("/cam/camera_info", bagTime(1), cameraInfoMessage("cam", "plumb_bob", {0, 0, 0, 0, 0}));
+	    });
+	expectVerdict("/cam/image_raw/compressed  sensor_msgs/CompressedImage");
+	expectError([&] { import(); }, {"/cam/image_raw/compressed", "cannot be decoded: damaged"});
+}
+
 TEST_F(RosBagOddTopics, CloudsAndScansWithoutWhatTheyNeedAreLeftOut)
 {
 	writeBag(
