@@ -34,10 +34,15 @@ TEST(ImportProgram, Kitti)
 {
 	const TempFolder folder;
 	writeKitti(folder);
+	write(folder, "x_gps.tum", "of another recording");
 	const ProgramResult result =
 	    run({"kitti", folder.path(), "-o", folder.file("x.rawlog"), "--speed-noise", "0.05", "--speed-scale", "1.01", "--seed", "4"});
 	EXPECT_EQ(result.status, 0) << result.err;
 	EXPECT_NE(result.out.find("20 images, 100 IMU samples, 100 odometry samples"), std::string::npos) << result.out;
+	EXPECT_NE(result.err.find("x_gps.tum: was there before"), std::string::npos) << result.err;
+	EXPECT_TRUE(std::filesystem::exists(folder.file("x_gps.tum.old")));
+	EXPECT_FALSE(std::filesystem::exists(folder.file("x_gps.tum")));
+	EXPECT_TRUE(std::filesystem::exists(folder.file("x_ground_truth.tum")));
 }
 
 TEST(ImportProgram, RosBagThatIsNone)

@@ -247,6 +247,23 @@ TEST(ObservationAdapter, BadImuReadingsAreRejectedByReason)
 	          (std::map<std::string, uint64_t>{{"not_finite", 2}, {"missing_data", 1}, {"duplicate_stamp", 1}, {"stamp_backwards", 1}}));
 }
 
+TEST(ObservationAdapter, AnOdometryPoseThatIsNoNumberMattersWhereItIsUsed)
+{
+	const auto poseless = [](int ms)
+	{
+		auto odometry = makeOdometry(kStart_ns + ms * kMillisecond_ns, {0.1, 0});
+		odometry.odometry = mrpt::poses::CPose2D(std::nan(""), std::nan(""), std::nan(""));
+		return odometry;
+	};
+	ObservationAdapter of_speeds;
+	EXPECT_FALSE(give(of_speeds, poseless(0)).rejected);
+	AdapterOptions options;
+	options.odometry_source = AdapterOptions::OdometrySource::pose;
+	ObservationAdapter of_poses(options);
+	EXPECT_EQ(give(of_poses, poseless(0)).rejected, Rejection::not_finite);
+	EXPECT_FALSE(give(of_poses, makeOdometry(kStart_ns, {std::nan(""), 0})).rejected);
+}
+
 TEST(ObservationAdapter, BadOdometryAndImageStampsAreRejected)
 {
 	ObservationAdapter adapter;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "RosBagSources.h"
-#include "RosWheels.h"
 #include "StampOrder.h"
 
 #include <viwo/core/Trajectory.h>
@@ -30,11 +29,12 @@ class RosBagImport
 	struct Tally
 	{
 		size_t messages = 0, without_stamp = 0, same_stamp = 0, not_finite = 0;
-		std::set<int64_t> image_stamps;
+		size_t without_pose = 0;                                //!< of an odometry: its pose is none
+		std::set<int64_t> stamps;                               //!< of the pictures, or of the wheels' samples, that were written
 		Eigen::Vector3d force_sum_O = Eigen::Vector3d::Zero();  //!< of an IMU
 		bool moves = false;                                     //!< of an odometry: any twist but zero
 		double first_to_last_m = 0;                             //!< of an odometry: how far its own pose came
-		RosWheels wheels;
+		double forward_m2_s2 = 0, sideways_m2_s2 = 0;           //!< of an odometry: sums of squared speeds
 	};
 
 	void take(const rosbag::MessageInstance& message);
@@ -45,7 +45,11 @@ class RosBagImport
 	void takeTruth(const rosbag::MessageInstance& message);
 	void writeTracks();
 	void addNotes();
+	void addGpsNote();
 	void addNotesOf(const RosSource& source, const Tally& tally);
+	void addNotesOfOdometry(const RosSource& source, const Tally& tally);
+	void addNotesOfImu(const RosSource& source, const Tally& tally);
+	void note(const RosSource& source, const std::string& what);
 
 	const RosBagFile& bag_;
 	const ImportJob& job_;

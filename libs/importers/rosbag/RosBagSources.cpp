@@ -1,7 +1,6 @@
 #include "RosBagSources.h"
 
 #include "RosInstance.h"
-#include "RosWheels.h"
 
 #include <mrpt/core/format.h>
 #include <viwo/core/Joined.h>
@@ -39,9 +38,16 @@ std::string typeOf(const std::vector<RosTopic>& topics, const std::string& name)
 	return at == topics.end() ? "" : at->type;
 }
 
-bool needsPose(const std::string& type)
+/** "/robot1/" of "/robot1/tf"; of "/tf" and "tf" none. */
+std::string namespaceOf(const std::string& topic)
 {
-	return !isOdometryType(type);
+	const std::string space = topic.substr(0, topic.rfind('/') + 1);
+	return space == "/" ? "" : space;
+}
+
+std::string lastNameOf(const std::string& topic)
+{
+	return topic.substr(topic.rfind('/') + 1);
 }
 }  // namespace
 
@@ -49,17 +55,23 @@ RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool
 {
 	readHeaders(map);
 	chooseBaseFrame(map.general.base_frame);
+	findTransformTopics();
 	readFrames();
 	chooseBaseFrame(map.general.base_frame);
+	if (base_frame_.empty()) takeFrameOfTwist();
 	requireBaseFrame();
 	placeTruth();
 	for (RosSource& source : sources_)
 	{
 		if (isImageType(source.type)) readCamera(source);
-		if (source.type == "sensor_msgs/JointState") requireWheels(bag, source.mapping);
-		place(source);
-		if (!source.placed && source.type == "sensor_msgs/Imu") placeByGravity(source, record_time);
+		if (source.type == "sensor_msgs/JointState") source.wheels = RosWheels(bag, source.mapping, record_time);
+		if (isOdometryType(source.type))
+			placeOdometry(source);
+		else
+			place(source);
 	}
+	for (RosSource& source : sources_)
+		if (!source.placed && source.type == "sensor_msgs/Imu") placeByGravity(source, record_time);
 }
 
 RosHeader RosBagSources::firstHeader(const std::string& topic)
@@ -87,8 +99,8 @@ void RosBagSources::readHeaders(const RosTopicMap& map)
 		source.mapping = mapping;
 		source.type = typeOf(bag_.topics(), mapping.topic);
 		const RosHeader header = firstHeader(mapping.topic);
-		source.frame = header.frame;
-		source.child_frame = header.child_frame;
+		source.frame = source.type == "nav_msgs/Odometry" ? header.child_frame : header.frame;
+		if (isOdometryType(source.type)) source.frame = FrameTree::plainName(source.frame);
 		sources_.push_back(std::move(source));
 	}
 }
@@ -112,9 +124,11 @@ bool RosBagSources::allPlaced() const
 	if (!base_frame_.empty() && !isKnown(base_frame_)) return false;
 	if (!truth_.child_frame.empty() && !base_frame_.empty() && !frames_.find(truth_.child_frame, base_frame_)) return false;
 	return std::all_of(sources_.begin(), sources_.end(),
-	                   [this](const RosSource& source) {
-		                   return !needsPose(source.type) || source.mapping.sensorPose() ||
-		                          (!base_frame_.empty() && frames_.find(base_frame_, source.frame));
+	                   [this](const RosSource& source)
+	                   {
+		                   if (source.type == "sensor_msgs/JointState" || source.mapping.sensorPose()) return true;
+		                   if (isOdometryType(source.type) && (source.frame.empty() || source.frame == base_frame_)) return true;
+		                   return !base_frame_.empty() && frames_.find(base_frame_, source.frame).has_value();
 	                   });
 }
 
@@ -125,31 +139,62 @@ void RosBagSources::readFrames()
 		readTransforms(message,
 		               [this](const std::string& parent, const std::string& child, const Pose3& T) { frames_.add(parent, child, T); });
 	};
-	bag_.visit({"/tf_static"},
-	           [&](const rosbag::MessageInstance& message)
-	           {
-		           read(message);
-		           return true;
-	           });
+	for (const std::string& topic : tf_static_)
+		bag_.visit({topic},
+		           [&](const rosbag::MessageInstance& message)
+		           {
+			           read(message);
+			           return true;
+		           });
 	// Large where a robot has many joints: no further than needed.
-	bag_.visit({"/tf"},
-	           [&](const rosbag::MessageInstance& message)
-	           {
-		           if (allPlaced()) return false;
-		           read(message);
-		           return true;
-	           });
+	for (const std::string& topic : tf_)
+		bag_.visit({topic},
+		           [&](const rosbag::MessageInstance& message)
+		           {
+			           if (allPlaced()) return false;
+			           read(message);
+			           return true;
+		           });
+}
+
+void RosBagSources::findTransformTopics()
+{
+	const auto strangeness = [this](const std::string& topic)
+	{
+		const std::string space = namespaceOf(topic);
+		const auto isInside = [&](const RosSource& source) { return source.mapping.topic.compare(0, space.size(), space) == 0; };
+		return space.empty() ? 0 : std::any_of(sources_.begin(), sources_.end(), isInside) ? 1 : 2;
+	};
+	std::set<std::string> elsewhere;
+	for (auto& [ending, found] : {std::pair("tf_static", &tf_static_), std::pair("tf", &tf_)})
+	{
+		for (const RosTopic& topic : bag_.topics())
+			if ((topic.type == "tf2_msgs/TFMessage" || topic.type == "tf/tfMessage") && lastNameOf(topic.name) == ending)
+				found->push_back(topic.name);
+		std::stable_sort(found->begin(), found->end(),
+		                 [&](const std::string& a, const std::string& b) { return strangeness(a) < strangeness(b); });
+		for (const std::string& topic : *found)
+			if (!namespaceOf(topic).empty()) elsewhere.insert(topic);
+	}
+	if (!elsewhere.empty())
+		notes_.push_back("tf is taken from " + joined(elsewhere) + ", too; frames of one name are one frame, whose first transform counts");
 }
 
 void RosBagSources::chooseBaseFrame(const std::string& wanted)
 {
 	base_frame_ = FrameTree::plainName(wanted);
-	for (const RosSource& source : sources_)
-		if (base_frame_.empty() && source.mapping.label == "ODOMETRY") base_frame_ = FrameTree::plainName(source.child_frame);
-	for (const RosSource& source : sources_)
-		if (base_frame_.empty()) base_frame_ = FrameTree::plainName(source.child_frame);
+	for (const bool of_label : {true, false})
+		for (const RosSource& source : sources_)
+			if (base_frame_.empty() && source.type == "nav_msgs/Odometry" && (!of_label || source.mapping.label == "ODOMETRY"))
+				base_frame_ = source.frame;
 	for (const char* usual : {"base_link", "base_footprint"})
 		if (base_frame_.empty() && frames_.has(usual)) base_frame_ = usual;
+}
+
+void RosBagSources::takeFrameOfTwist()
+{
+	for (const RosSource& source : sources_)
+		if (base_frame_.empty() && source.type == "geometry_msgs/TwistStamped") base_frame_ = source.frame;
 }
 
 void RosBagSources::placeTruth()
@@ -173,7 +218,6 @@ std::string RosBagSources::whyNotPlaced(const RosSource& source) const
 
 void RosBagSources::place(RosSource& source)
 {
-	if (!needsPose(source.type)) return;
 	const std::string& label = source.mapping.label;
 	if (const auto T_OS = source.mapping.sensorPose())
 	{
@@ -194,6 +238,19 @@ void RosBagSources::place(RosSource& source)
 	                 ": give position_m and yaw_pitch_roll_deg in a --map");
 }
 
+void RosBagSources::placeOdometry(RosSource& source)
+{
+	if (source.type == "sensor_msgs/JointState" || source.frame.empty() || base_frame_.empty() || source.frame == base_frame_) return;
+	const std::string& label = source.mapping.label;
+	source.T_SO = frames_.find(source.frame, base_frame_);
+	source.placed = source.T_SO.has_value();
+	const char* what = source.type == "nav_msgs/Odometry" ? "twists and poses" : "twists";
+	notes_.push_back(label + ": its " + what + " are those of '" + source.frame + "', " +
+	                 (source.placed ? "moved to '" + base_frame_ + "' by tf, where it is at " + poseText(source.T_SO->inverse())
+	                                : "and tf has no way from there to '" + base_frame_ +
+	                                      "'; taken for those of O: set base_frame = " + source.frame + " where they differ"));
+}
+
 void RosBagSources::readCamera(RosSource& source)
 {
 	const std::string& label = source.mapping.label;
@@ -211,6 +268,9 @@ void RosBagSources::readCamera(RosSource& source)
 		           if (camera) source.camera = *camera, calibrated = true;
 		           return !calibrated;
 	           });
+	if (calibrated && (source.camera.width_px() == 0 || source.camera.height_px() == 0))
+		notes_.push_back(label + ": " + source.mapping.camera_info +
+		                 " has a calibration for pictures of size 0; that of the pictures was taken");
 	if (!calibrated)
 		notes_.push_back(label + ": " + source.mapping.camera_info +
 		                 " says that the camera is not calibrated (K is 0); put the calibration in with `rawlog-edit --camera-params`");
@@ -218,13 +278,17 @@ void RosBagSources::readCamera(RosSource& source)
 
 void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 {
-	const auto odometry_source = std::find_if(
-	    sources_.begin(), sources_.end(), [](const RosSource& s) { return isOdometryType(s.type) && s.type != "sensor_msgs/JointState"; });
+	const auto isJoints = [](const RosSource& s) { return s.type == "sensor_msgs/JointState"; };
+	const auto odometry_source =
+	    std::find_if(sources_.begin(), sources_.end(), [&](const RosSource& s) { return isOdometryType(s.type) && !isJoints(s); });
 	std::vector<ImuSample> imu;
 	std::vector<StampedTwist> odometry;
 	std::set<std::string> topics{source.mapping.topic};
 	std::optional<int64_t> begin_ns;
-	if (odometry_source != sources_.end()) topics.insert(odometry_source->mapping.topic);
+	if (odometry_source != sources_.end())
+		topics.insert(odometry_source->mapping.topic);
+	else if (const auto wheels = std::find_if(sources_.begin(), sources_.end(), isJoints); wheels != sources_.end())
+		odometry = wheels->wheels.samples();
 	bag_.visit(topics,
 	           [&](const rosbag::MessageInstance& message)
 	           {
@@ -233,7 +297,10 @@ void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 		           if (message.getTopic() == source.mapping.topic)
 			           imu.push_back(readImu(message, t_ns));
 		           else
-			           odometry.push_back(readTwist(message, t_ns));
+		           {
+			           const mrpt::math::TTwist2D twist = readTwist(message, odometry_source->T_SO);
+			           odometry.push_back({t_ns, {twist.vx, twist.omega}});
+		           }
 		           // By the recorder's clock: those of the sensors may be apart.
 		           if (!begin_ns && !imu.empty()) begin_ns = header.record_ns;
 		           return !begin_ns || secondsBetween(*begin_ns, header.record_ns) < kLongestLook_s;
@@ -253,7 +320,9 @@ void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 	                     force_B.z(), axes->tilt_rad / kDegree);
 	note += axes->forward_correlation
 	            ? mrpt::format("forward by the odometry's accelerations (correlation %.2f)", *axes->forward_correlation)
-	            : "forward is a guess (no odometry that tells)";
+	            : std::string("forward is a guess (") +
+	                  (odometry.empty() ? "no odometry" : "the odometry hardly accelerates, or otherwise than any of the four headings") +
+	                  ")";
 	if (axes->yaw_rate_correlation) note += mrpt::format(", yaw rates agree by %.2f", *axes->yaw_rate_correlation);
 	notes_.push_back(note + ": " + poseText(source.T_OS) + "; its place is unknown, give it in a --map");
 }

@@ -3,6 +3,7 @@
 #include "FrameTree.h"
 #include "RosBagFile.h"
 #include "RosMessages.h"
+#include "RosWheels.h"
 
 #include <optional>
 #include <set>
@@ -16,11 +17,12 @@ struct RosSource
 {
 	TopicMapping mapping;
 	std::string type;
-	std::string frame;  //!< of its first message
-	std::string child_frame;
-	bool placed = false;  //!< the pose is that of the map or of tf
-	Pose3 T_OS;           //!< pose of the sensor in O
-	CameraModel camera;   //!< of images; focal length 0 where there is no calibration
+	std::string frame;  //!< of its first message: where the sensor is; of an odometry: whose motion it tells, empty where that is not said
+	bool placed = false;        //!< the pose is that of the map or of tf
+	Pose3 T_OS;                 //!< pose of the sensor in O
+	std::optional<Pose3> T_SO;  //!< of an odometry: O in `frame`, where that is another one to which tf leads
+	CameraModel camera;         //!< of images; focal length 0 where there is no calibration, size 0 where it does not tell that
+	RosWheels wheels;           //!< of a JointState
 };
 
 /** The topic that has the truth. */
@@ -43,19 +45,25 @@ class RosBagSources
 	FrameTree& frames() { return frames_; }
 	const RosTruth& truth() const { return truth_; }
 	const std::string& baseFrame() const { return base_frame_; }
+	/** Topics of tf that tell of moving frames. */
+	const std::vector<std::string>& movingTransforms() const { return tf_; }
 	const std::vector<std::string>& notes() const { return notes_; }
 
    private:
 	RosHeader firstHeader(const std::string& topic);
 	void readHeaders(const RosTopicMap& map);
+	void findTransformTopics();
 	void readFrames();
 	void chooseBaseFrame(const std::string& wanted);
+	/** The header of a TwistStamped does not tell the vehicle's frame for sure: the last choice. */
+	void takeFrameOfTwist();
 	bool isKnown(const std::string& frame) const;
 	void requireBaseFrame() const;
 	bool allPlaced() const;
 	void placeTruth();
 	std::string whyNotPlaced(const RosSource& source) const;
 	void place(RosSource& source);
+	void placeOdometry(RosSource& source);
 	void readCamera(RosSource& source);
 	void placeByGravity(RosSource& source, bool record_time);
 
@@ -64,13 +72,8 @@ class RosBagSources
 	FrameTree frames_;
 	RosTruth truth_;
 	std::set<std::string> frames_of_headers_;
+	std::vector<std::string> tf_static_, tf_;  //!< topics, the first ones' transforms count
 	std::string base_frame_;
 	std::vector<std::string> notes_;
 };
-
-/** The stamp of a message: of its header, or, on request or where that is 0, of its recording. */
-inline int64_t stampOf(const RosHeader& header, bool record_time)
-{
-	return record_time || header.header_ns == 0 ? header.record_ns : header.header_ns;
-}
 }  // namespace viwo

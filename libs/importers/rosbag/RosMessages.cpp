@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace viwo
 {
@@ -59,12 +60,15 @@ ImuSample readImu(const rosbag::MessageInstance& message, int64_t t_ns)
 	return {t_ns, vectorOf(imu->linear_acceleration), vectorOf(imu->angular_velocity)};
 }
 
-StampedTwist readTwist(const rosbag::MessageInstance& message, int64_t t_ns)
+mrpt::math::TTwist2D readTwist(const rosbag::MessageInstance& message, const std::optional<Pose3>& T_SO)
 {
 	const bool is_odometry = message.isType<nav_msgs::Odometry>();
 	const auto twist =
 	    is_odometry ? instance<nav_msgs::Odometry>(message)->twist.twist : instance<geometry_msgs::TwistStamped>(message)->twist;
-	return {t_ns, {twist.linear.x, twist.angular.z}};
+	if (!T_SO) return {twist.linear.x, twist.linear.y, twist.angular.z};
+	const Eigen::Vector3d w_S = vectorOf(twist.angular), v_O_S = vectorOf(twist.linear) + w_S.cross(T_SO->p);
+	const Eigen::Vector3d v_O = T_SO->R.conjugate() * v_O_S, w_O = T_SO->R.conjugate() * w_S;
+	return {v_O.x(), v_O.y(), w_O.z()};
 }
 
 std::optional<Pose3> readPose(const rosbag::MessageInstance& message)
@@ -113,19 +117,21 @@ mrpt::obs::CObservation::Ptr imuObservation(const rosbag::MessageInstance& messa
 	return imu;
 }
 
-mrpt::obs::CObservation::Ptr odometryObservation(const rosbag::MessageInstance& message, int64_t t_ns, const std::string& label)
+mrpt::obs::CObservation::Ptr odometryObservation(const rosbag::MessageInstance& message, int64_t t_ns, const std::optional<Pose3>& T_SO,
+                                                 const std::string& label)
 {
-	const StampedTwist sample = readTwist(message, t_ns);
-	Pose3 T_WO;
-	double side_m_s = 0;
-	if (message.isType<nav_msgs::Odometry>())
+	const mrpt::math::TTwist2D twist = readTwist(message, T_SO);
+	const auto odometry =
+	    std::make_shared<mrpt::obs::CObservationOdometry>(makeOdometry(t_ns, {twist.vx, twist.omega}, {}, 0, 0, 0, label));
+	odometry->velocityLocal.vy = twist.vy;
+	if (!message.isType<nav_msgs::Odometry>()) return odometry;
+	const double nan = std::numeric_limits<double>::quiet_NaN();
+	odometry->odometry = mrpt::poses::CPose2D(nan, nan, nan);
+	if (const auto T_WS = readPose(message))
 	{
-		T_WO = readPose(message).value_or(Pose3());
-		side_m_s = instance<nav_msgs::Odometry>(message)->twist.twist.linear.y;
+		const Pose3 T_WO = T_SO ? *T_WS * *T_SO : *T_WS;
+		odometry->odometry = mrpt::poses::CPose2D(T_WO.p.x(), T_WO.p.y(), yawOf(T_WO.R));
 	}
-	const auto odometry = std::make_shared<mrpt::obs::CObservationOdometry>(
-	    makeOdometry(t_ns, sample.twist, {}, T_WO.p.x(), T_WO.p.y(), yawOf(T_WO.R), label));
-	odometry->velocityLocal.vy = side_m_s;
 	return odometry;
 }
 

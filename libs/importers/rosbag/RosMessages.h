@@ -4,6 +4,7 @@
 #include "ImuAxes.h"
 #include "RosTopicMap.h"
 
+#include <mrpt/math/TTwist2D.h>
 #include <mrpt/obs/CObservation.h>
 #include <viwo/core/CameraModel.h>
 #include <viwo/core/Pose3.h>
@@ -40,12 +41,20 @@ struct RosHeader
 /** Of a message of any convertible type or CameraInfo. */
 RosHeader readHeader(const rosbag::MessageInstance& message);
 
+/** The stamp of a message: of its header, or, on request or where that is 0, of its recording. */
+inline int64_t stampOf(const RosHeader& header, bool record_time)
+{
+	return record_time || header.header_ns == 0 ? header.record_ns : header.header_ns;
+}
+
 ImuSample readImu(const rosbag::MessageInstance& message, int64_t t_ns);
 
-/** Of nav_msgs/Odometry or geometry_msgs/TwistStamped. */
-StampedTwist readTwist(const rosbag::MessageInstance& message, int64_t t_ns);
+/** Velocity of O in its own axes, of nav_msgs/Odometry or geometry_msgs/TwistStamped.
+ *  @param T_SO O in the frame S whose motion the message tells; nothing: S is O. */
+mrpt::math::TTwist2D readTwist(const rosbag::MessageInstance& message, const std::optional<Pose3>& T_SO);
 
-/** Of nav_msgs/Odometry or geometry_msgs/PoseStamped: the pose of the child frame; nothing for a quaternion that is none. */
+/** Of nav_msgs/Odometry or geometry_msgs/PoseStamped: the pose of the child frame; nothing where it is not finite, or the quaternion is
+ *  none. */
 std::optional<Pose3> readPose(const rosbag::MessageInstance& message);
 
 /** Of a NavSatFix; nothing without a fix. */
@@ -58,8 +67,9 @@ void readTransforms(const rosbag::MessageInstance& message,
 /** @name Observations @{ */
 mrpt::obs::CObservation::Ptr imuObservation(const rosbag::MessageInstance& message, int64_t t_ns, const Pose3& T_OB,
                                             const std::string& label);
-/** Of nav_msgs/Odometry or geometry_msgs/TwistStamped. */
-mrpt::obs::CObservation::Ptr odometryObservation(const rosbag::MessageInstance& message, int64_t t_ns, const std::string& label);
+/** Of nav_msgs/Odometry or geometry_msgs/TwistStamped; @param T_SO as in readTwist(). A pose that is none becomes NaN. */
+mrpt::obs::CObservation::Ptr odometryObservation(const rosbag::MessageInstance& message, int64_t t_ns, const std::optional<Pose3>& T_SO,
+                                                 const std::string& label);
 mrpt::obs::CObservation::Ptr fixObservation(const rosbag::MessageInstance& message, int64_t t_ns, const Pose3& T_OA,
                                             const std::string& label);
 mrpt::obs::CObservation::Ptr scanObservation(const rosbag::MessageInstance& message, int64_t t_ns, const Pose3& T_OL,

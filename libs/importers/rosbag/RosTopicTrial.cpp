@@ -24,7 +24,7 @@ void convertOnTrial(const rosbag::MessageInstance& message)
 	else if (type == "sensor_msgs/PointCloud2")
 		cloudObservation(message, 0, {}, "");
 	else
-		readTwist(message, 0);
+		readTwist(message, {});
 }
 
 /** Why the first message of a topic cannot be converted; empty: it can. */

@@ -1,4 +1,5 @@
 #include "CarmenLog.h"
+#include "OutputNames.h"
 #include "StampRepair.h"
 
 #include <mrpt/core/format.h>
@@ -11,7 +12,6 @@
 #include <viwo/rawlog/RawlogWriter.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace viwo
 {
@@ -47,12 +47,6 @@ std::string repairNote(const std::string& what, const RepairedStamps& stamps)
 	return mrpt::format("stamps of %s run back %s; moved, by up to %.3f s, to keep the order of the file: %zu of %zu", what.c_str(),
 	                    counted(stamps.backwards, "time").c_str(), static_cast<double>(stamps.largest_change_ns) * 1e-9, stamps.changed,
 	                    stamps.t_ns.size());
-}
-
-std::string stampsPath(const std::string& rawlog_path)
-{
-	std::filesystem::path path(rawlog_path);
-	return path.replace_filename(path.stem().string() + "_stamps.csv").string();
 }
 
 void writeStamps(const std::string& path, const CarmenLog& log, const RepairedStamps& stamps)
@@ -121,8 +115,9 @@ ImportResult importCarmen(const ImportJob& job)
 	for (const auto& [kind, count] : log.other_lines) result.notes.push_back("left out: " + counted(count, kind + " line"));
 
 	writeRawlog(job, log, scan_stamps, odometry_stamps, result);
-	result.stamps_path = stampsPath(job.rawlog_path);
+	result.stamps_path = besideRawlog(job.rawlog_path, kStampsEnding);
 	writeStamps(result.stamps_path, log, scan_stamps);
+	for (const std::string& note : putAsideOthers(job.rawlog_path, {result.stamps_path})) result.notes.push_back(note);
 	result.scans = log.scans.size();
 	result.duration_s = secondsBetween(scan_stamps.t_ns.front(), scan_stamps.t_ns.back());
 	return result;

@@ -139,7 +139,7 @@ ImportResult importEuroc(const ImportJob& job)
 	EurocSequence sequence(job.folder);
 	const Recording recording = sequence.read();
 	ImportResult result = writeRecording(recording, job);
-	result.notes = sequence.notes();
+	result.notes.insert(result.notes.begin(), sequence.notes().begin(), sequence.notes().end());
 	return result;
 }
 }  // namespace viwo

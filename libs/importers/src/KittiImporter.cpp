@@ -65,7 +65,7 @@ ImportResult importKitti(const ImportJob& job, const KittiOptions& options)
 	notes.emplace_back("speeds and yaw rates are values at their stamp: set velocity_meaning = instantaneous in the configuration");
 
 	ImportResult result = writeRecording(recording, job);
-	result.notes = std::move(notes);
+	result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
 	return result;
 }
 }  // namespace viwo

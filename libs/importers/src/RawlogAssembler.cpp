@@ -1,5 +1,7 @@
 #include "RawlogAssembler.h"
 
+#include "OutputNames.h"
+
 #include <viwo/core/Error.h>
 #include <viwo/core/Time.h>
 #include <viwo/rawlog/RawlogWriter.h>
@@ -88,12 +90,6 @@ void requireSize(const Recording& recording)
 	            " pixels, but the calibration is for " + std::to_string(recording.camera.width_px()) + "x" +
 	            std::to_string(recording.camera.height_px()));
 }
-
-std::string groundTruthPath(const std::string& rawlog_path)
-{
-	fs::path path(rawlog_path);
-	return path.replace_filename(path.stem().string() + "_ground_truth.tum").string();
-}
 }  // namespace
 
 std::pair<int, int> imageSize(const std::string& path)
@@ -151,9 +147,10 @@ ImportResult writeRecording(const Recording& recording, const ImportJob& job)
 	result.duration_s = secondsBetween(events.front().t_ns, events.back().t_ns);
 	if (!recording.ground_truth.empty())
 	{
-		result.ground_truth_path = groundTruthPath(job.rawlog_path);
+		result.ground_truth_path = besideRawlog(job.rawlog_path, kGroundTruthEnding);
 		recording.ground_truth.saveTum(result.ground_truth_path);
 	}
+	result.notes = putAsideOthers(job.rawlog_path, {result.ground_truth_path});
 	return result;
 }
 }  // namespace viwo

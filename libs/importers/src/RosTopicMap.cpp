@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 namespace viwo
@@ -53,8 +54,21 @@ void checkUse(const TopicMapping& mapping, const std::string& type, const std::s
 		            type + "); leave them out");
 }
 
+void checkJoints(const TopicMapping& mapping, const std::string& where)
+{
+	if (mapping.left_joints.empty() || mapping.right_joints.empty() || mapping.wheel_radius_m <= 0 || mapping.track_m <= 0)
+		throw Error(where + "JointState needs left_joints, right_joints, wheel_radius_m and track_m");
+	const std::vector<std::string> right = jointsOf(mapping.right_joints);
+	for (const std::string& joint : jointsOf(mapping.left_joints))
+		if (std::find(right.begin(), right.end(), joint) != right.end())
+			throw Error(where + "left_joints and right_joints both name " + joint + "; name each joint on its own side");
+}
+
 void checkMapping(const TopicMapping& mapping, const std::vector<RosTopic>& topics, const std::string& where)
 {
+	// Labels are in the names of the picture files.
+	if (mapping.label.find_first_of("/\\") != std::string::npos)
+		throw Error(where + "a label becomes part of file names and cannot have / or \\; name it otherwise");
 	if (mapping.topic.empty()) throw Error(where + "topic: is missing");
 	const RosTopic& topic = requireTopic(topics, mapping.topic, where + "topic");
 	if (!isConvertible(topic.type)) throw Error(where + "topic = " + topic.name + ": " + topic.type + " cannot become an observation");
@@ -65,9 +79,7 @@ void checkMapping(const TopicMapping& mapping, const std::vector<RosTopic>& topi
 		if (info.type != "sensor_msgs/CameraInfo") throw Error(where + "camera_info = " + info.name + ": is a " + info.type);
 	}
 	checkUse(mapping, topic.type, where);
-	if (topic.type != "sensor_msgs/JointState") return;
-	if (mapping.left_joints.empty() || mapping.right_joints.empty() || mapping.wheel_radius_m <= 0 || mapping.track_m <= 0)
-		throw Error(where + "JointState needs left_joints, right_joints, wheel_radius_m and track_m");
+	if (topic.type == "sensor_msgs/JointState") checkJoints(mapping, where);
 }
 }  // namespace
 
@@ -93,6 +105,12 @@ bool isImageType(const std::string& type)
 bool isOdometryType(const std::string& type)
 {
 	return type == "nav_msgs/Odometry" || type == "geometry_msgs/TwistStamped" || type == "sensor_msgs/JointState";
+}
+
+std::vector<std::string> jointsOf(const std::string& names)
+{
+	std::istringstream words(names);
+	return {std::istream_iterator<std::string>(words), {}};
 }
 
 bool isConvertible(const std::string& type)

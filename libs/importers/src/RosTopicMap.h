@@ -72,6 +72,8 @@ std::string namesOfTopics(const std::vector<RosTopic>& topics);
 bool isConvertible(const std::string& type);
 bool isImageType(const std::string& type);
 bool isOdometryType(const std::string& type);
+/** The names in left_joints or right_joints, which blanks separate. */
+std::vector<std::string> jointsOf(const std::string& names);
 
 /** True for pictures from which the lens' distortion was taken: a part of the last word is rect, as in /left/image_rect_color. */
 bool isRectified(const std::string& topic);

@@ -154,7 +154,7 @@ AdaptedObservation ObservationAdapter::convertOdometry(const CObservationOdometr
 			            "; set odometry_source to what it has: " + describeSources(odometry));
 		return rejection(Rejection::missing_data);
 	}
-	if (!isFinite(odometry)) return rejection(Rejection::not_finite);
+	if (!isFinite(odometry, options_.odometry_source)) return rejection(Rejection::not_finite);
 	const int64_t t_ns = nanosecondsOf(odometry.timestamp);
 	if (const auto reason = checkStamp(last_odometry_t_ns_, t_ns)) return rejection(*reason);
 	last_odometry_t_ns_ = t_ns;

@@ -60,12 +60,12 @@ std::string describeSources(const CObservationOdometry& odometry)
 	return text + "pose";
 }
 
-bool isFinite(const CObservationOdometry& odometry)
+bool isFinite(const CObservationOdometry& odometry, Source source)
 {
 	const auto& p = odometry.odometry;
 	const auto& v = odometry.velocityLocal;
-	const bool pose_is_finite = std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.phi());
-	return pose_is_finite && (!odometry.hasVelocities || (std::isfinite(v.vx) && std::isfinite(v.omega)));
+	if (source == Source::pose) return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.phi());
+	return source != Source::velocity || (std::isfinite(v.vx) && std::isfinite(v.omega));
 }
 
 std::optional<WheelSample> wheelSampleFrom(const OdometryReading* previous, const OdometryReading& current, const AdapterOptions& options)

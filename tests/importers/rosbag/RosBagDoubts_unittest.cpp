@@ -88,6 +88,7 @@ TEST_F(RosBagDoubts, ValuesThatAreNotFiniteDoNotTurnTheImu)
 	EXPECT_TRUE(isNote(result, "IMU: tf has no frame 'imu_link' under 'base_link'; by its mean specific force"));
 	EXPECT_TRUE(isNote(result, "forward by the odometry's accelerations"));
 	EXPECT_TRUE(isNote(result, "IMU: not finite: 3 of 1000 samples"));
+	EXPECT_TRUE(isNote(result, "ODOMETRY: twists that are not finite: 5 of 1000"));
 	for (const std::string& note : result.notes) EXPECT_EQ(note.find("nan"), std::string::npos) << note;
 }
 

@@ -27,6 +27,15 @@ class RosBagOddTopics : public RosBag
 		add(bag);
 		bag.close();
 	}
+	/** As of another release's definition: the same name with another sum. */
+	template <class Message>
+	void changeSumOf()
+	{
+		std::string bytes = readFile(path("x.bag"));
+		const std::string sum = ros::message_traits::MD5Sum<Message>::value();
+		for (size_t at = bytes.find(sum); at != std::string::npos; at = bytes.find(sum, at + 1)) bytes.replace(at, 4, "0000");
+		writeFile(path("x.bag"), bytes);
+	}
 	void expectLeftOut(const ImportResult& result, const std::string& note)
 	{
 		EXPECT_TRUE(isNote(result, note)) << note;
@@ -117,14 +126,10 @@ TEST_F(RosBagOddTopics, CloudsAndScansWithoutWhatTheyNeedAreLeftOut)
 	expectVerdict("viwo-groundtruth  no, without 2D scans");
 }
 
-// As of another release's definition: the same name with another sum.
 TEST_F(RosBagOddTopics, AnotherDefinitionOfATypeIsLeftOut)
 {
 	writeBag([](rosbag::Bag& bag) { bag.write("/base/twist", bagTime(0), stamped<geometry_msgs::TwistStamped>(0, "base")); });
-	std::string bytes = readFile(path("x.bag"));
-	const std::string sum = ros::message_traits::MD5Sum<geometry_msgs::TwistStamped>::value();
-	for (size_t at = bytes.find(sum); at != std::string::npos; at = bytes.find(sum, at + 1)) bytes.replace(at, 4, "0000");
-	writeFile(path("x.bag"), bytes);
+	changeSumOf<geometry_msgs::TwistStamped>();
 	expectLeftOut(import(), "/base/twist (geometry_msgs/TwistStamped) is left out: geometry_msgs/TwistStamped with MD5 sum 0000");
 }
 
@@ -272,8 +277,9 @@ TEST_F(RosBagOddTopics, TheProposalIsPrintedBeforeTheWork)
 	EXPECT_EQ(edited.out.find("[general]"), 0u);
 	EXPECT_EQ(edited.out.rfind("[general]"), 0u) << "printed once";
 
-	// Before a word can be said on frames: the message that has them is damaged.
-	writeBag([](rosbag::Bag& bag) { bag.write("/tf_static", bagTime(0), stamped<geometry_msgs::TwistStamped>(0, "base")); });
+	// Before a word can be said on frames: the message that has them is of another definition.
+	writeBag([](rosbag::Bag& bag) { bag.write("/tf_static", bagTime(0), tf2_msgs::TFMessage()); });
+	changeSumOf<tf2_msgs::TFMessage>();
 	const ProgramResult early = run({"rosbag", path("x.bag"), "-o", path("x.rawlog")});
 	EXPECT_EQ(early.status, 1) << early.err;
 	EXPECT_NE(early.out.find("[ODOMETRY]\ntopic = /odom\n"), std::string::npos) << early.out;

@@ -29,14 +29,15 @@ bool hasRosBagSupport();
  *  | message | becomes |
  *  |---|---|
  *  | sensor_msgs/Imu | CObservationIMU, with the orientation quaternion where there is one |
- *  | nav_msgs/Odometry, geometry_msgs/TwistStamped | CObservationOdometry: twist (vx, vy, wz) as velocityLocal, pose as pose |
+ *  | nav_msgs/Odometry, geometry_msgs/TwistStamped | CObservationOdometry: twist (vx, vy, wz) of O as velocityLocal, pose of O as pose |
  *  | sensor_msgs/JointState | CObservationOdometry: wheel joints to forward speed and yaw rate |
  *  | sensor_msgs/NavSatFix | CObservationGPS (GGA), and X_gps.tum: east-north-up of the first fix |
  *  | sensor_msgs/LaserScan | CObservation2DRangeScan, of a sensor turned to the middle of the sweep |
  *  | sensor_msgs/Image, CompressedImage | CObservationImage in its own file: PNG, or the compressed bytes; CameraInfo gives the lens |
  *  | sensor_msgs/PointCloud2 | CObservationPointCloud |
  *
- *  O is the base frame: that of the map, else the odometry's child frame, else base_link or base_footprint. Sensor poses are those of tf
+ *  O is the base frame: that of the map, else the odometry's child frame, else base_link or base_footprint. Twists and poses of another
+ * frame are moved to O where tf leads there. Sensor poses are those of tf
  * and tf_static to the header's frame, unless the map gives them. An IMU that neither of them places is levelled by gravity and turned in
  * steps of 90 degrees to agree with the odometry's accelerations. Observations are written in the order of their stamps, sorted within 10
  * s.
