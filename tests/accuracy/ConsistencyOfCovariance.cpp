@@ -21,18 +21,28 @@ std::string setting(const std::string& key, double value)
 	return text.str();
 }
 
-/** Wheels as the estimator expects them: no error but what is drawn from its priors. Its left and right scales are independent, so their
- * mean has 1/sqrt(2) of the deviation of each and their difference sqrt(2) of it. */
+/** Slope of the simulated floor for each mm of its height (sim::FloorOptions). */
+constexpr double kSlope_deg_mm = 0.2;
+
+/** A robot that errs as the estimator's configuration says: scales and track of the wheels drawn from their priors, noise of the wheels and
+ * of the IMU of its densities, a floor that tilts the robot as the plane factor has it. Its left and right scales are independent, so their
+ * mean has 1/sqrt(2) of the deviation of each and their difference sqrt(2) of it. (Side slip there is none in the simulator.) */
 std::vector<RunRecipe> runs()
 {
+	const NoiseOptions noise = OdometryOptions().estimator.noise;
 	const PriorOptions priors = OdometryOptions().estimator.priors;
-	const SimulatedDrive drive{"free",
-	                           "lobby",
-	                           "lobby_free",
-	                           {"lidar.enabled=false", "route.duration_s=45", "wheels.radius_error=0", "wheels.left_right_difference=0",
-	                            "wheels.track_error=0", setting("wheels.radius_deviation", priors.wheel_scale / std::sqrt(2)),
-	                            setting("wheels.left_right_deviation", priors.wheel_scale * std::sqrt(2)),
-	                            setting("wheels.track_deviation", priors.track_relative)}};
+	const SimulatedDrive drive{
+	    "free",
+	    "lobby",
+	    "lobby_free",
+	    {"lidar.enabled=false", "route.duration_s=45", "wheels.radius_error=0", "wheels.left_right_difference=0", "wheels.track_error=0",
+	     setting("wheels.radius_deviation", priors.wheel_scale / std::sqrt(2)),
+	     setting("wheels.left_right_deviation", priors.wheel_scale * std::sqrt(2)),
+	     setting("wheels.track_deviation", priors.track_relative), setting("wheels.noise_m_s_sqrtHz", noise.wheels.s0_m_s_sqrtHz),
+	     setting("wheels.noise_per_speed_sqrtHz", noise.wheels.k_sqrtHz),
+	     setting("imu.acc_noise_m_s2_sqrtHz", noise.imu.acc_noise_m_s2_sqrtHz),
+	     setting("imu.gyro_noise_rad_s_sqrtHz", noise.imu.gyro_noise_rad_s_sqrtHz),
+	     setting("floor.height_rms_mm", priors.plane_factor_tilt_deg / kSlope_deg_mm)}};
 	return runsOf(drive, kRuns);
 }
 
