@@ -101,7 +101,10 @@ bool isRectified(const std::string& topic)
 
 bool isNamedAsDepth(const std::string& topic)
 {
-	return holdsAny(lowered(topic), {"depth", "disparity", "mask"});
+	// The picture and its folder: /depth_camera/color/image_raw is none.
+	const std::string picture = lowered(pictureName(topic));
+	const size_t folder = parentOf(picture).rfind('/');
+	return holdsAny(folder == std::string::npos ? picture : picture.substr(folder), {"depth", "disparity", "mask"});
 }
 
 RosTopicMap proposeTopicMap(const std::vector<RosTopic>& topics, const std::map<std::string, std::string>& objections)

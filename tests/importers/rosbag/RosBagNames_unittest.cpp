@@ -86,6 +86,11 @@ TEST_F(RosBagNames, FilesOfAnotherImportArePutAside)
 	for (const char* name : {"x_ground_truth.tum", "x_gps.tum"}) EXPECT_FALSE(std::filesystem::exists(path(name))) << name;
 	EXPECT_EQ(readFile(path("x_ground_truth.tum.old")), truth);
 	EXPECT_EQ(readFile(path("x_gps.tum.old")), gps);
+
+	writeFile(path("x_gps.tum"), "another one");
+	EXPECT_TRUE(isNote(import(writeMap("[IMU]\ntopic = /imu\n")), "x_gps.tum.old2"));
+	EXPECT_EQ(readFile(path("x_gps.tum.old2")), "another one");
+	EXPECT_EQ(readFile(path("x_gps.tum.old")), gps) << "one that was put aside before is kept";
 }
 
 TEST_F(RosBagNames, FixesThatAreNoneAreSaid)

@@ -211,6 +211,15 @@ TEST(RosTopicNames, RectifiedIsAPartOfTheLastWord)
 	EXPECT_EQ(leftOut({{"/a/image_raw/compressed", compressed, 1}, {"/a/image_rect/compressed", compressed, 1}}).size(), 1u);
 }
 
+TEST(RosTopicNames, DepthIsToldByThePictureAndItsFolder)
+{
+	for (const char* topic : {"/camera/depth/image_raw", "/camera/depth/image_rect_raw/compressed", "/camera/Depth/image",
+	                          "/camera/aligned_depth_to_color/image_raw", "/zed/depth_registered", "depth"})
+		EXPECT_TRUE(isNamedAsDepth(topic)) << topic;
+	for (const char* topic : {"/depth_camera/color/image_raw", "/depth_camera/color/image_raw/compressed", "/camera/image_raw"})
+		EXPECT_FALSE(isNamedAsDepth(topic)) << topic;
+}
+
 TEST_F(RosBagOddTopics, OfTwoTypesOnATopicThatOfASensorIsRead)
 {
 	writeBag(
