@@ -2,7 +2,16 @@
 #include "RosTopicTrial.h"
 #include "StreamStatistics.h"
 
+#include <geometry_msgs/TwistStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <rosbag/message_instance.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <viwo/core/Error.h>
 
 #include <algorithm>
@@ -33,6 +42,21 @@ StreamInfo roleIn(const RosTopicMap& map, const std::string& topic, const std::s
 	if (needs_map) info.remark = "needs a --map in viwo-import rosbag";
 	return info;
 }
+
+template <class... Messages>
+bool isAnyOf(const rosbag::MessageInstance& message)
+{
+	return (message.isType<Messages>() || ...);
+}
+
+/** By the header's clock; by the recorder's where another definition of the type tells nothing of where a header would be. */
+int64_t stampToCount(const rosbag::MessageInstance& message)
+{
+	using namespace sensor_msgs;
+	const bool is_known = isAnyOf<Image, CompressedImage, Imu, JointState, LaserScan, NavSatFix, PointCloud2, nav_msgs::Odometry,
+	                              geometry_msgs::TwistStamped>(message);
+	return is_known ? stampOf(readHeader(message), false) : static_cast<int64_t>(message.getTime().toNSec());
+}
 }  // namespace
 
 RecordingInfo inspectRosBag(const std::string& path, const std::function<bool(double)>& proceed)
@@ -61,8 +85,7 @@ RecordingInfo inspectRosBag(const std::string& path, const std::function<bool(do
 	          [&](const rosbag::MessageInstance& message)
 	          {
 		          const StreamInfo& known = streams[message.getTopic()];
-		          StreamInfo& stream =
-		              statistics.add(message.getTopic(), message.getDataType(), known.role, stampOf(readHeader(message), false));
+		          StreamInfo& stream = statistics.add(message.getTopic(), message.getDataType(), known.role, stampToCount(message));
 		          stream.calibrated = known.calibrated, stream.remark = known.remark;
 		          if (!proceed(static_cast<double>(++done) / static_cast<double>(total)))
 			          throw Error("interrupted: " + path + " was not looked through");

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -74,14 +76,32 @@ bool isPngOf16Bit(const std::vector<uint8_t>& data)
 	return data.size() > 24 && data[0] == 0x89 && data[24] == 16;
 }
 
+/** Empty where it cannot be decoded. OpenCV throws at sizes beyond its limits. */
+cv::Mat decoded(const std::vector<uint8_t>& data)
+try
+{
+	return cv::imdecode(data, cv::IMREAD_UNCHANGED);
+}
+catch (const cv::Exception&)
+{
+	return {};
+}
+
+/** The bytes are as many as the size needs. */
+bool isSound(const sensor_msgs::Image& image, const Encoding& encoding)
+{
+	const uint64_t row_bytes = uint64_t{image.width} * static_cast<uint64_t>(CV_ELEM_SIZE(encoding.cv_type));
+	constexpr uint32_t kLargest = std::numeric_limits<int>::max();
+	return image.width > 0 && image.height > 0 && image.width <= kLargest && image.height <= kLargest && image.step >= row_bytes &&
+	       image.data.size() >= uint64_t{image.step} * image.height;
+}
+
 /** The message's bytes as a matrix, in this machine's byte order. */
 cv::Mat pixelsOf(const sensor_msgs::Image& image, const Encoding& encoding, const std::string& topic)
 {
-	const size_t row_bytes = static_cast<size_t>(image.width) * CV_ELEM_SIZE(encoding.cv_type);
-	if (image.width == 0 || image.height == 0 || image.step < row_bytes ||
-	    image.data.size() < static_cast<size_t>(image.step) * image.height)
+	if (!isSound(image, encoding))
 		throw Error(topic + ": a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) + " " + image.encoding +
-		            " has only " + counted(image.data.size(), "byte") + ": damaged");
+		            " has only " + counted(image.data.size(), "byte") + ": damaged; leave the topic out by a --map");
 	cv::Mat pixels = cv::Mat(static_cast<int>(image.height), static_cast<int>(image.width), encoding.cv_type,
 	                         const_cast<uint8_t*>(image.data.data()), image.step)
 	                     .clone();
@@ -123,11 +143,11 @@ std::pair<int, int> RosPictures::sizeOf(const rosbag::MessageInstance& message)
 	if (message.isType<sensor_msgs::CompressedImage>())
 	{
 		extension(message);
-		const cv::Mat pixels = cv::imdecode(instance<sensor_msgs::CompressedImage>(message)->data, cv::IMREAD_UNCHANGED);
+		const cv::Mat pixels = decoded(instance<sensor_msgs::CompressedImage>(message)->data);
 		return {pixels.cols, pixels.rows};
 	}
 	const auto image = instance<sensor_msgs::Image>(message);
-	encodingOf(image->encoding, message.getTopic());
+	if (!isSound(*image, encodingOf(image->encoding, message.getTopic()))) return {0, 0};
 	return {static_cast<int>(image->width), static_cast<int>(image->height)};
 }
 
@@ -147,8 +167,8 @@ std::pair<int, int> RosPictures::writeCompressed(const rosbag::MessageInstance& 
 	const auto [size, is_new] = compressed_size_.try_emplace(topic);
 	if (is_new || isPngOf16Bit(data))
 	{
-		cv::Mat pixels = cv::imdecode(data, cv::IMREAD_UNCHANGED);
-		if (pixels.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged");
+		cv::Mat pixels = decoded(data);
+		if (pixels.empty()) throw Error(topic + ": a compressed picture cannot be decoded: damaged; leave the topic out by a --map");
 		size->second = {pixels.cols, pixels.rows};
 		if (pixels.depth() == CV_16U)
 		{

@@ -3,18 +3,44 @@
 #include "RosInstance.h"
 #include "RosMessages.h"
 
+#include <algorithm>
+
 namespace viwo
 {
 namespace
 {
+/** What the first message of a topic shows. */
+struct Trial
+{
+	std::string why_not;  //!< empty: it can be converted
+	bool is_damaged_picture = false;
+};
+
+/** 0 also where the lengths in the message are damaged. @throws UnusableTopic. */
+std::pair<int, int> sizeOnTrial(const rosbag::MessageInstance& message)
+try
+{
+	return RosPictures::sizeOf(message);
+}
+catch (const UnusableTopic&)
+{
+	throw;
+}
+catch (const Error&)
+{
+	return {0, 0};
+}
+
 /** All that converting needs of a message, thrown away. @throws UnusableTopic. */
-void convertOnTrial(const rosbag::MessageInstance& message)
+Trial convertOnTrial(const rosbag::MessageInstance& message)
 {
 	const std::string& type = message.getDataType();
 	if (isImageType(type))
-		RosPictures::sizeOf(message);
+	{
+		if (sizeOnTrial(message).first == 0) return {"its first picture is damaged or of size 0", true};
+	}
 	else if (type == "sensor_msgs/CameraInfo")
-		readCameraInfo(message, isRectified(message.getTopic()));
+		readCameraInfo(message, true);  // whether the lens can be had is for each of its pictures to ask
 	else if (type == "sensor_msgs/Imu")
 		readImu(message, 0);
 	else if (type == "sensor_msgs/NavSatFix")
@@ -25,65 +51,93 @@ void convertOnTrial(const rosbag::MessageInstance& message)
 		cloudObservation(message, 0, {}, "");
 	else
 		readTwist(message, {});
+	return {};
 }
 
-/** Why the first message of a topic cannot be converted; empty: it can. */
-std::string objectionTo(const RosBagFile& bag, const std::string& topic)
+Trial trialOf(const RosBagFile& bag, const std::string& topic)
 try
 {
-	std::string why_not = "it has no message";
-	bag.visit({topic},
-	          [&](const rosbag::MessageInstance& message)
-	          {
-		          why_not.clear();
-		          convertOnTrial(message);
-		          return false;
-	          });
-	return why_not;
+	Trial trial{"it has no message"};
+	bag.visit({topic}, [&](const rosbag::MessageInstance& message) { return trial = convertOnTrial(message), false; });
+	return trial;
+}
+catch (const UnusableTopic& e)
+{
+	return {e.why()};
+}
+
+/** Why a CameraInfo is none of these pictures; empty: it is, or says nothing of it. Of rectified ones the lens does not matter, and a
+ *  driver may scale its pictures and go on to send the calibration of the large ones. */
+std::string objectionToCameraInfo(const RosBagFile& bag, const TopicMapping& mapping)
+try
+{
+	std::pair<int, int> size;
+	std::optional<CameraModel> camera;
+	const auto first = [&bag](const std::string& topic, const auto& read)
+	{ bag.visit({topic}, [&read](const rosbag::MessageInstance& message) { return read(message), false; }); };
+	first(mapping.camera_info,
+	      [&](const rosbag::MessageInstance& message) { camera = readCameraInfo(message, isRectified(mapping.topic)); });
+	if (!camera || camera->width_px() == 0 || camera->height_px() == 0) return "";
+	first(mapping.topic, [&](const rosbag::MessageInstance& message) { size = sizeOnTrial(message); });
+	if (size.first == 0 || std::pair(camera->width_px(), camera->height_px()) == size) return "";
+	return "it is for " + std::to_string(camera->width_px()) + "x" + std::to_string(camera->height_px()) + " pixels, not for " +
+	       std::to_string(size.first) + "x" + std::to_string(size.second);
 }
 catch (const UnusableTopic& e)
 {
 	return e.why();
 }
-/** A driver may scale its pictures and go on to send the calibration of the large ones. */
-void leaveOutForeignCameraInfo(const RosBagFile& bag, TopicMapping& mapping, std::vector<std::string>& notes)
-{
-	if (mapping.camera_info.empty()) return;
-	std::pair<int, int> size;
-	std::optional<CameraModel> camera;
-	const auto first = [&bag](const std::string& topic, const auto& read)
-	{ bag.visit({topic}, [&read](const rosbag::MessageInstance& message) { return read(message), false; }); };
-	first(mapping.topic, [&](const rosbag::MessageInstance& message) { size = RosPictures::sizeOf(message); });
-	first(mapping.camera_info,
-	      [&](const rosbag::MessageInstance& message) { camera = readCameraInfo(message, isRectified(mapping.topic)); });
-	if (!camera || camera->width_px() == 0 || camera->height_px() == 0 || size.first == 0) return;
-	if (std::pair(camera->width_px(), camera->height_px()) == size) return;
-	notes.push_back(mapping.camera_info + " is left out for " + mapping.topic + ": it is for " + std::to_string(camera->width_px()) + "x" +
-	                std::to_string(camera->height_px()) + " pixels, not for " + std::to_string(size.first) + "x" +
-	                std::to_string(size.second));
-	mapping.camera_info.clear();
-}
-}  // namespace
 
-RosTopicMap proposeTopicMap(const RosBagFile& bag)
+void leaveOutForeignCameraInfo(const RosBagFile& bag, RosTopicMap& map)
 {
-	std::map<std::string, std::string> objections;
+	for (TopicMapping& mapping : map.topics)
+	{
+		if (mapping.camera_info.empty()) continue;
+		const std::string why_not = objectionToCameraInfo(bag, mapping);
+		if (why_not.empty()) continue;
+		map.notes.push_back(mapping.camera_info + " is left out for " + mapping.topic + ": " + why_not);
+		mapping.camera_info.clear();
+	}
+}
+
+/** The proposal after trials of all that is in it, which `trials` keeps. */
+RosTopicMap triedTopicMap(const RosBagFile& bag, std::map<std::string, Trial>& trials, bool takes_damaged_pictures)
+{
 	// Where one is left out another may come in: raw pictures of an unknown encoding, rectified ones beside them.
 	while (true)
 	{
+		std::map<std::string, std::string> objections;
+		for (const auto& [topic, trial] : trials)
+			if (!takes_damaged_pictures || !trial.is_damaged_picture) objections[topic] = trial.why_not;
 		RosTopicMap map = proposeTopicMap(bag.topics(), objections);
 		bool settled = true;
 		for (const TopicMapping& mapping : map.topics)
 			for (const std::string& topic : {mapping.topic, mapping.camera_info})
 			{
-				if (topic.empty() || objections.count(topic) > 0) continue;
-				const std::string why_not = objectionTo(bag, topic);
-				objections[topic] = why_not;
-				settled = settled && why_not.empty();
+				if (topic.empty() || trials.count(topic) > 0) continue;
+				trials[topic] = trialOf(bag, topic);
+				settled = settled && trials[topic].why_not.empty();
 			}
-		if (!settled) continue;
-		for (TopicMapping& mapping : map.topics) leaveOutForeignCameraInfo(bag, mapping, map.notes);
-		return map;
+		if (settled) return map;
 	}
+}
+
+bool hasPictures(const RosBagFile& bag, const RosTopicMap& map)
+{
+	const auto isOneOf = [&map](const RosTopic& topic)
+	{ return std::any_of(map.topics.begin(), map.topics.end(), [&](const TopicMapping& m) { return m.topic == topic.name; }); };
+	return std::any_of(bag.topics().begin(), bag.topics().end(),
+	                   [&](const RosTopic& topic) { return isImageType(topic.type) && isOneOf(topic); });
+}
+}  // namespace
+
+RosTopicMap proposeTopicMap(const RosBagFile& bag)
+{
+	std::map<std::string, Trial> trials;
+	RosTopicMap map = triedTopicMap(bag, trials, false);
+	// A recording for which there is a camera must not become one without: then the import says what is damaged.
+	if (!hasPictures(bag, map)) map = triedTopicMap(bag, trials, true);
+	leaveOutForeignCameraInfo(bag, map);
+	return map;
 }
 }  // namespace viwo
