@@ -81,8 +81,7 @@ void RosBagImport::take(const rosbag::MessageInstance& message)
 	const std::vector<std::string>& tf = found_.movingTransforms();
 	if (std::find(tf.begin(), tf.end(), message.getTopic()) != tf.end())
 	{
-		readTransforms(message, [this](const std::string& parent, const std::string& child, const Pose3& T)
-		               { found_.frames().add(parent, child, T); });
+		found_.takeTransforms(message);
 		return;
 	}
 	if (message.getTopic() == map_.general.ground_truth) takeTruth(message);
@@ -226,6 +225,7 @@ void RosBagImport::writeTracks()
 void RosBagImport::addNotes()
 {
 	result_.notes = found_.notes();
+	for (const std::string& line : found_.notesOnTransforms()) result_.notes.push_back(line);
 	result_.notes.insert(result_.notes.end(), pictures_.notes().begin(), pictures_.notes().end());
 	for (const RosSource& source : found_.sources()) addNotesOf(source, tallies_[source.mapping.label]);
 	if (order_.outOfOrder() > 0)

@@ -4,6 +4,7 @@
 
 #include <mrpt/core/format.h>
 #include <viwo/core/Joined.h>
+#include <viwo/core/NumberText.h>
 #include <viwo/core/Scalars.h>
 #include <viwo/core/Time.h>
 
@@ -15,6 +16,8 @@ namespace
 {
 /** Of the drive that decides on an IMU's axes. */
 constexpr double kLongestLook_s = 600;
+/** Frames that tf moves against each other by more are not on one rigid body. */
+constexpr double kRigid_m = 0.01, kRigid_rad = 0.01;
 
 /** Adding 0 takes the sign from -0. */
 std::vector<double> yawPitchRoll_deg(const Eigen::Quaterniond& R_OS)
@@ -132,27 +135,54 @@ bool RosBagSources::allPlaced() const
 	                   });
 }
 
+bool RosBagSources::needsAllTransforms() const
+{
+	return std::any_of(sources_.begin(), sources_.end(),
+	                   [this](const RosSource& source)
+	                   {
+		                   if (!isOdometryType(source.type) || source.type == "sensor_msgs/JointState") return false;
+		                   return !source.frame.empty() && source.frame != base_frame_ && !frames_.find(base_frame_, source.frame);
+	                   });
+}
+
+void RosBagSources::readTransforms(const rosbag::MessageInstance& message, bool count)
+{
+	viwo::readTransforms(message,
+	                     [&](const std::string& parent, const std::string& child, const std::optional<Pose3>& T)
+	                     {
+		                     if (T)
+			                     frames_.add(parent, child, *T);
+		                     else
+			                     broken_[{FrameTree::plainName(parent), FrameTree::plainName(child)}] += count ? 1 : 0;
+	                     });
+}
+
+std::vector<std::string> RosBagSources::notesOnTransforms() const
+{
+	std::vector<std::string> notes;
+	for (const auto& [frames, count] : broken_)
+		notes.push_back("tf: left out: " + counted(count, "transform") + " from '" + frames.first + "' to '" + frames.second +
+		                "', with a value that is not finite or a quaternion whose length is not 1");
+	return notes;
+}
+
 void RosBagSources::readFrames()
 {
-	const auto read = [this](const rosbag::MessageInstance& message)
-	{
-		readTransforms(message,
-		               [this](const std::string& parent, const std::string& child, const Pose3& T) { frames_.add(parent, child, T); });
-	};
 	for (const std::string& topic : tf_static_)
 		bag_.visit({topic},
 		           [&](const rosbag::MessageInstance& message)
 		           {
-			           read(message);
+			           readTransforms(message, true);
 			           return true;
 		           });
-	// Large where a robot has many joints: no further than needed.
+	const bool all = needsAllTransforms();
+	// Large where a robot has many joints: no further than needed. What is none is counted when the bag is imported.
 	for (const std::string& topic : tf_)
 		bag_.visit({topic},
 		           [&](const rosbag::MessageInstance& message)
 		           {
-			           if (allPlaced()) return false;
-			           read(message);
+			           if (!all && allPlaced()) return false;
+			           readTransforms(message, false);
 			           return true;
 		           });
 }
@@ -213,7 +243,10 @@ std::string RosBagSources::whyNotPlaced(const RosSource& source) const
 {
 	if (base_frame_.empty()) return "the vehicle's frame is not known (no base_frame)";
 	if (source.frame.empty()) return "its messages name no frame";
-	return "tf has no frame '" + source.frame + "' under '" + base_frame_ + "'";
+	const std::string frame = FrameTree::plainName(source.frame);
+	const bool is_broken = std::any_of(broken_.begin(), broken_.end(), [&](const auto& b) { return b.first.second == frame; });
+	return "tf has no " + std::string(is_broken && !frames_.has(frame) ? "transform that is one to" : "frame") + " '" + source.frame +
+	       "' under '" + base_frame_ + "'";
 }
 
 void RosBagSources::place(RosSource& source)
@@ -242,9 +275,18 @@ void RosBagSources::placeOdometry(RosSource& source)
 {
 	if (source.type == "sensor_msgs/JointState" || source.frame.empty() || base_frame_.empty() || source.frame == base_frame_) return;
 	const std::string& label = source.mapping.label;
+	const char* what = source.type == "nav_msgs/Odometry" ? "twists and poses" : "twists";
+	const FrameTree::Motion motion = frames_.motionBetween(base_frame_, source.frame);
+	if (motion.translation_m > kRigid_m || motion.rotation_rad > kRigid_rad)
+	{
+		notes_.push_back(label + ": its " + what + " are those of '" + source.frame + "'" +
+		                 mrpt::format(", which tf moves against '%s', by %.3f m and %.2f deg, as a frame that is not fixed on the vehicle",
+		                              base_frame_.c_str(), motion.translation_m, motion.rotation_rad / kDegree) +
+		                 "; not moved by tf, taken for those of O as they are");
+		return;
+	}
 	source.T_SO = frames_.find(source.frame, base_frame_);
 	source.placed = source.T_SO.has_value();
-	const char* what = source.type == "nav_msgs/Odometry" ? "twists and poses" : "twists";
 	notes_.push_back(label + ": its " + what + " are those of '" + source.frame + "', " +
 	                 (source.placed ? "moved to '" + base_frame_ + "' by tf, where it is at " + poseText(source.T_SO->inverse())
 	                                : "and tf has no way from there to '" + base_frame_ +

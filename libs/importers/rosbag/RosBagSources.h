@@ -5,9 +5,11 @@
 #include "RosMessages.h"
 #include "RosWheels.h"
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viwo
@@ -42,18 +44,25 @@ class RosBagSources
 	RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool record_time);
 
 	std::vector<RosSource>& sources() { return sources_; }
-	FrameTree& frames() { return frames_; }
+	const FrameTree& frames() const { return frames_; }
+	/** Of a message of movingTransforms(): how far frames move, and which transforms are none. */
+	void takeTransforms(const rosbag::MessageInstance& message) { readTransforms(message, true); }
 	const RosTruth& truth() const { return truth_; }
 	const std::string& baseFrame() const { return base_frame_; }
 	/** Topics of tf that tell of moving frames. */
 	const std::vector<std::string>& movingTransforms() const { return tf_; }
 	const std::vector<std::string>& notes() const { return notes_; }
+	/** One line for each pair of frames with transforms that are none. */
+	std::vector<std::string> notesOnTransforms() const;
 
    private:
 	RosHeader firstHeader(const std::string& topic);
 	void readHeaders(const RosTopicMap& map);
 	void findTransformTopics();
+	void readTransforms(const rosbag::MessageInstance& message, bool count);
 	void readFrames();
+	/** Of an odometry whose frame static transforms do not lead to: only all of tf tells whether that is fixed on the vehicle. */
+	bool needsAllTransforms() const;
 	void chooseBaseFrame(const std::string& wanted);
 	/** The header of a TwistStamped does not tell the vehicle's frame for sure: the last choice. */
 	void takeFrameOfTwist();
@@ -72,7 +81,8 @@ class RosBagSources
 	FrameTree frames_;
 	RosTruth truth_;
 	std::set<std::string> frames_of_headers_;
-	std::vector<std::string> tf_static_, tf_;  //!< topics, the first ones' transforms count
+	std::map<std::pair<std::string, std::string>, size_t> broken_;  //!< transforms that are none: how many from a parent to a child
+	std::vector<std::string> tf_static_, tf_;                       //!< topics, the first ones' transforms count
 	std::string base_frame_;
 	std::vector<std::string> notes_;
 };

@@ -88,15 +88,15 @@ std::optional<GeodeticPoint> readFix(const rosbag::MessageInstance& message)
 	return GeodeticPoint{fix->latitude, fix->longitude, std::isfinite(fix->altitude) ? fix->altitude : 0};
 }
 
-void readTransforms(const rosbag::MessageInstance& message,
-                    const std::function<void(const std::string&, const std::string&, const Pose3&)>& add)
+void readTransforms(const rosbag::MessageInstance& message, const TransformTaker& take)
 {
 	const auto tf = instance<tf2_msgs::TFMessage>(message);
 	for (const auto& transform : tf->transforms)
 	{
 		const auto R = rotationOf(transform.transform.rotation);
 		const Eigen::Vector3d p = vectorOf(transform.transform.translation);
-		if (R && p.allFinite()) add(transform.header.frame_id, transform.child_frame_id, Pose3(*R, p));
+		const bool is_pose = R && p.allFinite();
+		take(transform.header.frame_id, transform.child_frame_id, is_pose ? std::optional(Pose3(*R, p)) : std::nullopt);
 	}
 }
 

@@ -60,9 +60,10 @@ std::optional<Pose3> readPose(const rosbag::MessageInstance& message);
 /** Of a NavSatFix; nothing without a fix. */
 std::optional<GeodeticPoint> readFix(const rosbag::MessageInstance& message);
 
-/** Hands all transforms of a tf message (tf2_msgs/TFMessage, or tf/tfMessage, which has the same bytes) on. */
-void readTransforms(const rosbag::MessageInstance& message,
-                    const std::function<void(const std::string& parent, const std::string& child, const Pose3& T_parent_child)>& add);
+using TransformTaker = std::function<void(const std::string& parent, const std::string& child, const std::optional<Pose3>& T_parent_child)>;
+/** Hands all transforms of a tf message (tf2_msgs/TFMessage, or tf/tfMessage, which has the same bytes) on; nothing for one that is not
+ *  finite, or whose quaternion is none. */
+void readTransforms(const rosbag::MessageInstance& message, const TransformTaker& take);
 
 /** @name Observations @{ */
 mrpt::obs::CObservation::Ptr imuObservation(const rosbag::MessageInstance& message, int64_t t_ns, const Pose3& T_OB,

@@ -21,6 +21,8 @@ namespace
 {
 /** A step is no wheel's when it is this many times those around it, and more than these. */
 constexpr double kJumpFactor = 3, kJumpTravel_m = 0.1, kJumpSpeed_m_s = 3;
+/** Of angles within one turn: drivers round them. */
+constexpr double kRounding_rad = 0.01;
 /** Steps on either side that it is compared with: two that jump, to a wrong value and back, do not outvote the others. */
 constexpr size_t kNeighbours = 3;
 
@@ -126,7 +128,7 @@ void RosWheels::unwrapTurns()
 		const auto [low, high] =
 		    std::minmax_element(angles_rad_.begin(), angles_rad_.end(),
 		                        [joint](const Reading& a, const Reading& b) { return a.values[joint] < b.values[joint]; });
-		if (high->values[joint] - low->values[joint] > 2 * M_PI + 1e-6) continue;
+		if (high->values[joint] - low->values[joint] > 2 * M_PI + kRounding_rad) continue;
 		double turned_rad = 0;
 		for (size_t i = 1; i < angles_rad_.size(); ++i)
 		{

@@ -199,3 +199,31 @@ TEST_F(RosBagDoubts, AFailedImportLeavesNothingOfItsOwn)
 	for (const auto& entry : std::filesystem::directory_iterator(path("x_Images"))) files += entry.is_regular_file();
 	EXPECT_EQ(files, 1u);
 }
+
+// The IMU's transform is none, the rear axle's only now and then.
+TEST_F(RosBagDoubts, TransformsThatAreNoneAreCounted)
+{
+	{
+		rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Write);
+		for (int i = 0; i < 20; ++i)
+		{
+			tf2_msgs::TFMessage frames;
+			frames.transforms = {transform("base_link", "/imu_link", {}),
+			                     transform("base_link", "rear_axle", Pose3(Eigen::Quaterniond::Identity(), {-1, 0, 0}))};
+			frames.transforms[0].transform.rotation.w = 0;
+			if (i % 5 == 0) frames.transforms[1].transform.translation.x = kNan;
+			bag.write(i == 7 ? "/tf_static" : "/tf", bagTime(50 * i), frames);
+			bag.write("/imu", bagTime(50 * i), imuMessage(50 * i, {0, 0, 9.81}, {0, 0, 0}));
+			auto odometry = odometryMessage(50 * i, 0.3, 0.2);
+			odometry.child_frame_id = "rear_axle";
+			bag.write("/odom", bagTime(50 * i), odometry);
+		}
+		bag.close();
+	}
+	const ImportResult result = import(writeMap("[general]\nbase_frame = base_link\n[IMU]\ntopic = /imu\n[ODOMETRY]\ntopic = /odom\n"));
+	EXPECT_TRUE(
+	    isNote(result, "tf: left out: 20 transforms from 'base_link' to 'imu_link', with a value that is not finite or a quaternion"));
+	EXPECT_TRUE(isNote(result, "tf: left out: 4 transforms from 'base_link' to 'rear_axle'"));
+	EXPECT_TRUE(isNote(result, "IMU: tf has no transform that is one to 'imu_link' under 'base_link'"));
+	EXPECT_TRUE(isNote(result, "are those of 'rear_axle', moved to 'base_link' by tf"));
+}

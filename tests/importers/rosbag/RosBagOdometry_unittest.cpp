@@ -137,6 +137,68 @@ TEST_F(RosBagOdometry, WithoutABaseFrameTheOdometrysOwnIsTaken)
 	}
 }
 
+// A driver that names the world where it should name the vehicle: tf's way there is the drive itself.
+TEST_F(RosBagOdometry, MotionOfAFrameThatTfMovesIsTakenAsItIs)
+{
+	for (const double speed_m_s : {0.3, 0.0})
+	{
+		{
+			rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Write);
+			for (int i = 0; i < 100; ++i)
+			{
+				const double t_s = 0.05 * i;
+				// It stands at first, elsewhere than the world's origin.
+				tf2_msgs::TFMessage frames;
+				frames.transforms = {transform("odom", "base_link", planar(2 + speed_m_s * std::max(0.0, t_s - 3), 3, 0.5)),
+				                     transform("base_link", "imu_link", planar(0.1, 0, 0))};
+				bag.write("/tf", bagTime(50 * i), frames);
+				bag.write("/imu", bagTime(50 * i), imuMessage(50 * i, {0, 0, 9.81}, {0, 0, 0}));
+				auto odometry = odometryMessage(50 * i, t_s < 3 ? 0 : speed_m_s, speed_m_s);
+				odometry.child_frame_id = "odom";
+				bag.write("/odom", bagTime(50 * i), odometry);
+				auto twist = stamped<geometry_msgs::TwistStamped>(50 * i, "/odom");
+				twist.twist = odometry.twist.twist;
+				bag.write("/twist", bagTime(50 * i), twist);
+			}
+			bag.close();
+		}
+		for (const char* topic : {"/odom", "/twist"})
+		{
+			const ImportResult result = import(
+			    writeMap(std::string("[general]\nbase_frame = base_link\n[IMU]\ntopic = /imu\n[ODOMETRY]\ntopic = ") + topic + "\n"));
+			EXPECT_EQ(isNote(result, "are those of 'odom', which tf moves against 'base_link', by 0.585 m and 0.00 deg"), speed_m_s > 0);
+			EXPECT_EQ(isNote(result, "moved to 'base_link' by tf"), speed_m_s == 0);
+			EXPECT_FALSE(isNote(result, "set base_frame = odom"));
+			EXPECT_TRUE(isNote(result, "IMU: by tf from base_link to imu_link"));
+			const RawlogContent content(path("x.rawlog"));
+			ASSERT_EQ(content.odometry.size(), 100u);
+			EXPECT_NEAR(content.odometry[80]->velocityLocal.vx, speed_m_s, 1e-12) << topic;
+			EXPECT_NEAR(content.odometry[80]->velocityLocal.vy, 0, 1e-12) << topic;
+		}
+	}
+}
+
+// A frame on the vehicle that tf repeats in every message, behind another one: fixed all the same.
+TEST_F(RosBagOdometry, AFixedFrameOfTheMovingTransformsIsMoved)
+{
+	writeArc("rear_axle", {}, 0.3, 0.2);
+	{
+		rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Append);
+		for (int i = 0; i < 20; ++i)
+		{
+			tf2_msgs::TFMessage frames;
+			frames.transforms = {transform("odom", "base_footprint", planar(0.3 * i, 0, 0)),
+			                     transform("base_footprint", "base_link", planar(0.5, 0, 0)),
+			                     transform("base_footprint", "rear_axle", planar(-1, 0, 0))};
+			bag.write("/tf", bagTime(50 * i), frames);
+		}
+		bag.close();
+	}
+	const ImportResult result = import(writeMap("[general]\nbase_frame = base_link\n[ODOMETRY]\ntopic = /twist\n"));
+	EXPECT_TRUE(isNote(result, "are those of 'rear_axle', moved to 'base_link' by tf"));
+	EXPECT_NEAR(RawlogContent(path("x.rawlog")).odometry[4]->velocityLocal.vy, 0.2 * 1.5, 1e-12);
+}
+
 TEST_F(RosBagOdometry, AFrameThatTfDoesNotKnowIsSaid)
 {
 	writeArc("hat", {}, 0.3, 0.2);
@@ -207,6 +269,27 @@ TEST_F(RosBagOdometry, AnglesWithinOneTurnAreUnwrapped)
 		EXPECT_GT(jumps, 10);
 		EXPECT_TRUE(isNote(importWheels(99), std::to_string(jumps) + " jumps of a whole turn taken off")) << jumps;
 	}
+}
+
+// +-3.1416 of a driver that writes four digits.
+TEST_F(RosBagOdometry, RoundedAnglesWithinOneTurnAreUnwrapped)
+{
+	writeWheels(
+	    [](int i, sensor_msgs::JointState& state)
+	    {
+		    for (double& angle_rad : state.position)
+		    {
+			    angle_rad = std::remainder(angle_rad, 2 * M_PI);
+			    // Once each: the ends of the turn as they are rounded.
+			    if (i == 0) angle_rad = -3.1416;
+			    if (i == 99) angle_rad = 3.1416;
+		    }
+	    });
+	const ImportResult result = import(writeMap(kWheels));
+	EXPECT_TRUE(isNote(result, "jumps of a whole turn taken off"));
+	const RawlogContent content(path("x.rawlog"));
+	ASSERT_GT(content.odometry.size(), 95u);
+	for (size_t i = 1; i + 2 < content.odometry.size(); ++i) EXPECT_NEAR(content.odometry[i]->velocityLocal.vx, 0.5, 1e-9) << i;
 }
 
 // A counter that starts from zero again, and one wrong value: those steps are left out, all others stay.
