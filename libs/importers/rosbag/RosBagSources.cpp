@@ -52,6 +52,11 @@ std::string lastNameOf(const std::string& topic)
 {
 	return topic.substr(topic.rfind('/') + 1);
 }
+/** Of REP 105: no frame of a vehicle, though drivers write them into the headers of its twists. */
+bool isWorldFrame(const std::string& frame)
+{
+	return frame == "odom" || frame == "map" || frame == "earth" || frame == "world";
+}
 }  // namespace
 
 RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool record_time) : bag_(bag)
@@ -224,7 +229,7 @@ void RosBagSources::chooseBaseFrame(const std::string& wanted)
 void RosBagSources::takeFrameOfTwist()
 {
 	for (const RosSource& source : sources_)
-		if (base_frame_.empty() && source.type == "geometry_msgs/TwistStamped") base_frame_ = source.frame;
+		if (base_frame_.empty() && source.type == "geometry_msgs/TwistStamped" && !isWorldFrame(source.frame)) base_frame_ = source.frame;
 }
 
 void RosBagSources::placeTruth()
@@ -289,8 +294,8 @@ void RosBagSources::placeOdometry(RosSource& source)
 	source.placed = source.T_SO.has_value();
 	notes_.push_back(label + ": its " + what + " are those of '" + source.frame + "', " +
 	                 (source.placed ? "moved to '" + base_frame_ + "' by tf, where it is at " + poseText(source.T_SO->inverse())
-	                                : "and tf has no way from there to '" + base_frame_ +
-	                                      "'; taken for those of O: set base_frame = " + source.frame + " where they differ"));
+	                                : "and tf has no way from there to '" + base_frame_ + "'; taken for those of O" +
+	                                      (isWorldFrame(source.frame) ? "" : ": set base_frame = " + source.frame + " where they differ")));
 }
 
 void RosBagSources::readCamera(RosSource& source)

@@ -9,6 +9,7 @@
 #include <viwo/importers/RosBagImporter.h>
 #include <viwo/rawlog/MrptTime.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,6 +73,14 @@ class RosBag : public ::testing::Test
 	{
 		writeFile(path("map.ini"), text);
 		return path("map.ini");
+	}
+	/** Ten messages of odometry, and what the test adds. */
+	void writeBag(const std::function<void(rosbag::Bag&)>& add) const
+	{
+		rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Write);
+		for (int i = 0; i < 10; ++i) bag.write("/odom", bagTime(50 * i), odometryMessage(50 * i, 0.1, 0));
+		add(bag);
+		bag.close();
 	}
 
 	TempFolder folder_;

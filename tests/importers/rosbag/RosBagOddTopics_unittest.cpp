@@ -8,7 +8,6 @@
 #include <viwo/importers/RecordingInfo.h>
 
 #include <filesystem>
-#include <functional>
 #include <limits>
 
 using namespace viwo;
@@ -19,14 +18,6 @@ namespace
 class RosBagOddTopics : public RosBag
 {
    protected:
-	/** Ten messages of odometry, and what the test adds. */
-	void writeBag(const std::function<void(rosbag::Bag&)>& add)
-	{
-		rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Write);
-		for (int i = 0; i < 10; ++i) bag.write("/odom", bagTime(50 * i), odometryMessage(50 * i, 0.1, 0));
-		add(bag);
-		bag.close();
-	}
 	/** As of another release's definition: the same name with another sum. */
 	template <class Message>
 	void changeSumOf()

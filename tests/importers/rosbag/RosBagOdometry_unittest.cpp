@@ -207,6 +207,15 @@ TEST_F(RosBagOdometry, AFrameThatTfDoesNotKnowIsSaid)
 	EXPECT_NEAR(RawlogContent(path("x.rawlog")).odometry[4]->velocityLocal.vx, 0.3, 1e-12);
 }
 
+TEST_F(RosBagOdometry, AFrameOfTheWorldIsNotRecommendedForTheVehicle)
+{
+	writeArc("odom", {}, 0.3, 0.2);
+	const ImportResult result = import(writeMap("[general]\nbase_frame = base_link\n[ODOMETRY]\ntopic = /twist\n"));
+	EXPECT_TRUE(
+	    isNote(result, "ODOMETRY: its twists are those of 'odom', and tf has no way from there to 'base_link'; taken for those of O"));
+	EXPECT_FALSE(isNote(result, "set base_frame"));
+}
+
 TEST_F(RosBagOdometry, PosesAndTwistsThatAreNoneAreCounted)
 {
 	{

@@ -5,7 +5,6 @@
 #include <viwo/importers/RecordingInfo.h>
 
 #include <algorithm>
-#include <functional>
 
 using namespace viwo;
 using namespace viwo::testing;
@@ -62,13 +61,6 @@ namespace
 class RosBagTrials : public RosBag
 {
    protected:
-	void writeBag(const std::function<void(rosbag::Bag&)>& add)
-	{
-		rosbag::Bag bag(path("x.bag"), rosbag::bagmode::Write);
-		for (int i = 0; i < 10; ++i) bag.write("/odom", bagTime(50 * i), odometryMessage(50 * i, 0.1, 0));
-		add(bag);
-		bag.close();
-	}
 	RecordingInfo inspect() const
 	{
 		return inspectRecording(path("x.bag"), [](double) { return true; });
