@@ -17,29 +17,16 @@ namespace viwo
 {
 namespace
 {
-/** Two names of one definition. */
-bool isTransforms(const std::string& type)
-{
-	return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
-}
-
 /** The lower, the sooner it is that which is meant where a topic has two types. */
 int rank(const std::string& type)
 {
 	if (isConvertible(type)) return 0;
-	return isTransforms(type) || type == "sensor_msgs/CameraInfo" || type == "geometry_msgs/PoseStamped" ? 1 : 2;
-}
-
-/** The type that is read of a topic. */
-const RosTopic* readOf(const std::vector<RosTopic>& topics, const std::string& name)
-{
-	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
-	return at == topics.end() ? nullptr : &*at;
+	return isTransformType(type) || type == "sensor_msgs/CameraInfo" || type == "geometry_msgs/PoseStamped" ? 1 : 2;
 }
 
 bool isReadAs(const std::string& type, const RosTopic& read)
 {
-	return type == read.type || (isTransforms(type) && isTransforms(read.type));
+	return type == read.type || (isTransformType(type) && isTransformType(read.type));
 }
 }  // namespace
 
@@ -97,7 +84,7 @@ std::vector<std::string> RosBagFile::notesOnTypes(const std::set<std::string>& t
 {
 	std::vector<std::string> notes;
 	for (const RosTopic& topic : topics_)
-		if (const RosTopic* read = readOf(topics_, topic.name); topics.count(topic.name) > 0 && !isReadAs(topic.type, *read))
+		if (const RosTopic* read = findTopic(topics_, topic.name); topics.count(topic.name) > 0 && !isReadAs(topic.type, *read))
 			notes.push_back(topic.name + ": of two types, " + read->type + " and " + topic.type +
 			                "; left out: " + counted(topic.messages, "message") + " of the latter");
 	return notes;
@@ -109,7 +96,7 @@ void RosBagFile::visit(const std::set<std::string>& topics, const std::function<
 	{
 		const auto wanted = [&](const rosbag::ConnectionInfo* connection)
 		{
-			const RosTopic* read = topics.count(connection->topic) > 0 ? readOf(topics_, connection->topic) : nullptr;
+			const RosTopic* read = topics.count(connection->topic) > 0 ? findTopic(topics_, connection->topic) : nullptr;
 			return read != nullptr && isReadAs(connection->datatype, *read);
 		};
 		rosbag::View view;
@@ -125,5 +112,10 @@ void RosBagFile::visit(const std::set<std::string>& topics, const std::function<
 	{
 		throw Error(name() + ": a message is cut short or damaged (" + e.what() + "); copy the bag again");
 	}
+}
+
+void RosBagFile::visitFirst(const std::string& topic, const std::function<void(const rosbag::MessageInstance&)>& visitor) const
+{
+	visit({topic}, [&](const rosbag::MessageInstance& message) { return visitor(message), false; });
 }
 }  // namespace viwo

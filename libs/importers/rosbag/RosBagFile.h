@@ -36,6 +36,8 @@ class RosBagFile
 	 *  one are read: that which can become observations.
 	 *  @throws Error: a damaged chunk. */
 	void visit(const std::set<std::string>& topics, const std::function<bool(const rosbag::MessageInstance&)>& visitor) const;
+	/** The first message of one topic, if there is one. */
+	void visitFirst(const std::string& topic, const std::function<void(const rosbag::MessageInstance&)>& visitor) const;
 
    private:
 	struct Impl;

@@ -224,8 +224,9 @@ void RosBagImport::writeTracks()
 
 void RosBagImport::addNotes()
 {
-	result_.notes = found_.notes();
-	for (const std::string& line : found_.notesOnTransforms()) result_.notes.push_back(line);
+	result_.notes = bag_.notesOnTypes(found_.topics());
+	for (const auto& notes : {found_.notes(), found_.notesOnTransforms()})
+		result_.notes.insert(result_.notes.end(), notes.begin(), notes.end());
 	result_.notes.insert(result_.notes.end(), pictures_.notes().begin(), pictures_.notes().end());
 	for (const RosSource& source : found_.sources()) addNotesOf(source, tallies_[source.mapping.label]);
 	if (order_.outOfOrder() > 0)

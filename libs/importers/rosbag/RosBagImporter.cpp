@@ -5,7 +5,6 @@
 #include <viwo/importers/RosBagImporter.h>
 
 #include <memory>
-#include <set>
 
 namespace viwo
 {
@@ -46,10 +45,6 @@ ImportResult importRosBags(const ImportJob& job, const RosBagOptions& options)
 	options.show_mapping(mapping);
 	ImportResult result = import->run();
 	result.mapping = mapping;
-	std::set<std::string> topics{map.general.ground_truth, "/tf", "/tf_static"};
-	for (const TopicMapping& taken : map.topics) topics.insert({taken.topic, taken.camera_info});
-	const std::vector<std::string> on_types = bag.notesOnTypes(topics);
-	result.notes.insert(result.notes.begin(), on_types.begin(), on_types.end());
 	result.notes.insert(result.notes.begin(), map.notes.begin(), map.notes.end());
 	return result;
 }

@@ -35,12 +35,6 @@ std::string poseText(const Pose3& T)
 	                    angles_deg[0], angles_deg[1], angles_deg[2]);
 }
 
-std::string typeOf(const std::vector<RosTopic>& topics, const std::string& name)
-{
-	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
-	return at == topics.end() ? "" : at->type;
-}
-
 /** "/robot1/" of "/robot1/tf"; of "/tf" and "tf" none. */
 std::string namespaceOf(const std::string& topic)
 {
@@ -72,9 +66,10 @@ RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool
 	for (RosSource& source : sources_)
 	{
 		if (isImageType(source.type)) readCamera(source);
-		if (source.type == "sensor_msgs/JointState") source.wheels = RosWheels(bag, source.mapping, record_time);
-		if (isOdometryType(source.type))
+		if (isTwistType(source.type))
 			placeOdometry(source);
+		else if (source.type == "sensor_msgs/JointState")
+			source.wheels = RosWheels(bag, source.mapping, record_time);
 		else
 			place(source);
 	}
@@ -85,12 +80,7 @@ RosBagSources::RosBagSources(const RosBagFile& bag, const RosTopicMap& map, bool
 RosHeader RosBagSources::firstHeader(const std::string& topic)
 {
 	std::optional<RosHeader> first;
-	bag_.visit({topic},
-	           [&](const rosbag::MessageInstance& message)
-	           {
-		           first = readHeader(message);
-		           return false;
-	           });
+	bag_.visitFirst(topic, [&](const rosbag::MessageInstance& message) { first = readHeader(message); });
 	if (!first) throw Error(bag_.name() + ": " + topic + " has no message; leave it out by a --map");
 	for (const std::string& frame : {first->frame, first->child_frame})
 		if (!frame.empty()) frames_of_headers_.insert(FrameTree::plainName(frame));
@@ -105,7 +95,7 @@ void RosBagSources::readHeaders(const RosTopicMap& map)
 	{
 		RosSource source;
 		source.mapping = mapping;
-		source.type = typeOf(bag_.topics(), mapping.topic);
+		if (const RosTopic* topic = findTopic(bag_.topics(), mapping.topic)) source.type = topic->type;
 		const RosHeader header = firstHeader(mapping.topic);
 		source.frame = source.type == "nav_msgs/Odometry" ? header.child_frame : header.frame;
 		if (isOdometryType(source.type)) source.frame = FrameTree::plainName(source.frame);
@@ -135,7 +125,7 @@ bool RosBagSources::allPlaced() const
 	                   [this](const RosSource& source)
 	                   {
 		                   if (source.type == "sensor_msgs/JointState" || source.mapping.sensorPose()) return true;
-		                   if (isOdometryType(source.type) && (source.frame.empty() || source.frame == base_frame_)) return true;
+		                   if (isTwistType(source.type) && (source.frame.empty() || source.frame == base_frame_)) return true;
 		                   return !base_frame_.empty() && frames_.find(base_frame_, source.frame).has_value();
 	                   });
 }
@@ -143,10 +133,9 @@ bool RosBagSources::allPlaced() const
 bool RosBagSources::needsAllTransforms() const
 {
 	return std::any_of(sources_.begin(), sources_.end(),
-	                   [this](const RosSource& source)
-	                   {
-		                   if (!isOdometryType(source.type) || source.type == "sensor_msgs/JointState") return false;
-		                   return !source.frame.empty() && source.frame != base_frame_ && !frames_.find(base_frame_, source.frame);
+	                   [this](const RosSource& source) {
+		                   return isTwistType(source.type) && !source.frame.empty() && source.frame != base_frame_ &&
+		                          !frames_.find(base_frame_, source.frame);
 	                   });
 }
 
@@ -204,8 +193,7 @@ void RosBagSources::findTransformTopics()
 	for (auto& [ending, found] : {std::pair("tf_static", &tf_static_), std::pair("tf", &tf_)})
 	{
 		for (const RosTopic& topic : bag_.topics())
-			if ((topic.type == "tf2_msgs/TFMessage" || topic.type == "tf/tfMessage") && lastNameOf(topic.name) == ending)
-				found->push_back(topic.name);
+			if (isTransformType(topic.type) && lastNameOf(topic.name) == ending) found->push_back(topic.name);
 		std::stable_sort(found->begin(), found->end(),
 		                 [&](const std::string& a, const std::string& b) { return strangeness(a) < strangeness(b); });
 		for (const std::string& topic : *found)
@@ -213,6 +201,15 @@ void RosBagSources::findTransformTopics()
 	}
 	if (!elsewhere.empty())
 		notes_.push_back("tf is taken from " + joined(elsewhere) + ", too; frames of one name are one frame, whose first transform counts");
+}
+
+std::set<std::string> RosBagSources::topics() const
+{
+	std::set<std::string> topics{truth_.topic};
+	for (const RosSource& source : sources_) topics.insert({source.mapping.topic, source.mapping.camera_info});
+	topics.insert(tf_.begin(), tf_.end());
+	topics.insert(tf_static_.begin(), tf_static_.end());
+	return topics;
 }
 
 void RosBagSources::chooseBaseFrame(const std::string& wanted)
@@ -278,7 +275,7 @@ void RosBagSources::place(RosSource& source)
 
 void RosBagSources::placeOdometry(RosSource& source)
 {
-	if (source.type == "sensor_msgs/JointState" || source.frame.empty() || base_frame_.empty() || source.frame == base_frame_) return;
+	if (source.frame.empty() || base_frame_.empty() || source.frame == base_frame_) return;
 	const std::string& label = source.mapping.label;
 	const char* what = source.type == "nav_msgs/Odometry" ? "twists and poses" : "twists";
 	const FrameTree::Motion motion = frames_.motionBetween(base_frame_, source.frame);
@@ -325,17 +322,17 @@ void RosBagSources::readCamera(RosSource& source)
 
 void RosBagSources::placeByGravity(RosSource& source, bool record_time)
 {
-	const auto isJoints = [](const RosSource& s) { return s.type == "sensor_msgs/JointState"; };
-	const auto odometry_source =
-	    std::find_if(sources_.begin(), sources_.end(), [&](const RosSource& s) { return isOdometryType(s.type) && !isJoints(s); });
+	const auto odometry_source = std::find_if(sources_.begin(), sources_.end(), [](const RosSource& s) { return isTwistType(s.type); });
 	std::vector<ImuSample> imu;
 	std::vector<StampedTwist> odometry;
 	std::set<std::string> topics{source.mapping.topic};
 	std::optional<int64_t> begin_ns;
 	if (odometry_source != sources_.end())
 		topics.insert(odometry_source->mapping.topic);
-	else if (const auto wheels = std::find_if(sources_.begin(), sources_.end(), isJoints); wheels != sources_.end())
-		odometry = wheels->wheels.samples();
+	else if (const auto joints =
+	             std::find_if(sources_.begin(), sources_.end(), [](const RosSource& s) { return s.type == "sensor_msgs/JointState"; });
+	         joints != sources_.end())
+		odometry = joints->wheels.samples();
 	bag_.visit(topics,
 	           [&](const rosbag::MessageInstance& message)
 	           {

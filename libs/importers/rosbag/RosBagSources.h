@@ -49,6 +49,8 @@ class RosBagSources
 	void takeTransforms(const rosbag::MessageInstance& message) { readTransforms(message, true); }
 	const RosTruth& truth() const { return truth_; }
 	const std::string& baseFrame() const { return base_frame_; }
+	/** All that are read: those of the map, and of tf. */
+	std::set<std::string> topics() const;
 	/** Topics of tf that tell of moving frames. */
 	const std::vector<std::string>& movingTransforms() const { return tf_; }
 	const std::vector<std::string>& notes() const { return notes_; }

@@ -58,7 +58,7 @@ Trial trialOf(const RosBagFile& bag, const std::string& topic)
 try
 {
 	Trial trial{"it has no message"};
-	bag.visit({topic}, [&](const rosbag::MessageInstance& message) { return trial = convertOnTrial(message), false; });
+	bag.visitFirst(topic, [&](const rosbag::MessageInstance& message) { trial = convertOnTrial(message); });
 	return trial;
 }
 catch (const UnusableTopic& e)
@@ -73,12 +73,10 @@ try
 {
 	std::pair<int, int> size;
 	std::optional<CameraModel> camera;
-	const auto first = [&bag](const std::string& topic, const auto& read)
-	{ bag.visit({topic}, [&read](const rosbag::MessageInstance& message) { return read(message), false; }); };
-	first(mapping.camera_info,
-	      [&](const rosbag::MessageInstance& message) { camera = readCameraInfo(message, isRectified(mapping.topic)); });
+	bag.visitFirst(mapping.camera_info,
+	               [&](const rosbag::MessageInstance& message) { camera = readCameraInfo(message, isRectified(mapping.topic)); });
 	if (!camera || camera->width_px() == 0 || camera->height_px() == 0) return "";
-	first(mapping.topic, [&](const rosbag::MessageInstance& message) { size = sizeOnTrial(message); });
+	bag.visitFirst(mapping.topic, [&](const rosbag::MessageInstance& message) { size = sizeOnTrial(message); });
 	if (size.first == 0 || std::pair(camera->width_px(), camera->height_px()) == size) return "";
 	return "it is for " + std::to_string(camera->width_px()) + "x" + std::to_string(camera->height_px()) + " pixels, not for " +
 	       std::to_string(size.first) + "x" + std::to_string(size.second);
@@ -124,10 +122,8 @@ RosTopicMap triedTopicMap(const RosBagFile& bag, std::map<std::string, Trial>& t
 
 bool hasPictures(const RosBagFile& bag, const RosTopicMap& map)
 {
-	const auto isOneOf = [&map](const RosTopic& topic)
-	{ return std::any_of(map.topics.begin(), map.topics.end(), [&](const TopicMapping& m) { return m.topic == topic.name; }); };
-	return std::any_of(bag.topics().begin(), bag.topics().end(),
-	                   [&](const RosTopic& topic) { return isImageType(topic.type) && isOneOf(topic); });
+	const auto isPicture = [&bag](const TopicMapping& mapping) { return isImageType(findTopic(bag.topics(), mapping.topic)->type); };
+	return std::any_of(map.topics.begin(), map.topics.end(), isPicture);
 }
 }  // namespace
 

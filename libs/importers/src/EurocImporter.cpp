@@ -3,11 +3,12 @@
 #include "SensorYaml.h"
 
 #include <viwo/core/Error.h>
+#include <viwo/core/Joined.h>
 #include <viwo/core/NumberText.h>
 #include <viwo/importers/EurocImporter.h>
 
 #include <filesystem>
-#include <sstream>
+#include <vector>
 
 namespace viwo
 {
@@ -70,22 +71,21 @@ class EurocSequence
 
 	void noteOnNoise(const SensorYaml& yaml)
 	{
-		std::ostringstream known;
-		std::string unknown;
+		std::vector<std::string> known, unknown;
 		const auto tell = [&](const char* key, const std::optional<double>& density)
 		{
 			if (density)
-				known << (known.tellp() > 0 ? ", " : "") << key << " = " << *density;
+				known.push_back(std::string(key) + " = " + significant(*density, 6));
 			else
-				unknown += (unknown.empty() ? "" : ", ") + std::string(key);
+				unknown.emplace_back(key);
 		};
 		tell("gyro_noise_rad_s_sqrtHz", yaml.gyro_noise_rad_s_sqrtHz);
 		tell("gyro_walk_rad_s2_sqrtHz", yaml.gyro_walk_rad_s2_sqrtHz);
 		tell("acc_noise_m_s2_sqrtHz", yaml.acc_noise_m_s2_sqrtHz);
 		tell("acc_walk_m_s3_sqrtHz", yaml.acc_walk_m_s3_sqrtHz);
-		if (known.tellp() > 0)
-			notes_.push_back("a rawlog cannot hold the IMU's noise: set " + known.str() + " in the configuration" +
-			                 (unknown.empty() ? "" : "; the sequence does not say " + unknown));
+		if (!known.empty())
+			notes_.push_back("a rawlog cannot hold the IMU's noise: set " + joined(known) + " in the configuration" +
+			                 (unknown.empty() ? "" : "; the sequence does not say " + joined(unknown)));
 	}
 
 	void readImages(Recording& recording, const Pose3& T_OB)

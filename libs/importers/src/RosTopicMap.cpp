@@ -16,12 +16,6 @@ namespace
 {
 constexpr char kGeneral[] = "general";
 
-const RosTopic* findTopic(const std::vector<RosTopic>& topics, const std::string& name)
-{
-	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
-	return at == topics.end() ? nullptr : &*at;
-}
-
 const RosTopic& requireTopic(const std::vector<RosTopic>& topics, const std::string& name, const std::string& where)
 {
 	const RosTopic* topic = findTopic(topics, name);
@@ -104,7 +98,23 @@ bool isImageType(const std::string& type)
 
 bool isOdometryType(const std::string& type)
 {
-	return type == "nav_msgs/Odometry" || type == "geometry_msgs/TwistStamped" || type == "sensor_msgs/JointState";
+	return isTwistType(type) || type == "sensor_msgs/JointState";
+}
+
+bool isTwistType(const std::string& type)
+{
+	return type == "nav_msgs/Odometry" || type == "geometry_msgs/TwistStamped";
+}
+
+bool isTransformType(const std::string& type)
+{
+	return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage";
+}
+
+const RosTopic* findTopic(const std::vector<RosTopic>& topics, const std::string& name)
+{
+	const auto at = std::find_if(topics.begin(), topics.end(), [&](const RosTopic& t) { return t.name == name; });
+	return at == topics.end() ? nullptr : &*at;
 }
 
 std::vector<std::string> jointsOf(const std::string& names)

@@ -71,7 +71,14 @@ std::string namesOfTopics(const std::vector<RosTopic>& topics);
 /** True for the message types that become observations. */
 bool isConvertible(const std::string& type);
 bool isImageType(const std::string& type);
+/** Of the vehicle's motion, as twists or as joints of its wheels. */
 bool isOdometryType(const std::string& type);
+/** Of these those that tell of which frame their twists are. */
+bool isTwistType(const std::string& type);
+/** Two names of one definition. */
+bool isTransformType(const std::string& type);
+/** The first of a name, which of a topic of two types is the one that is read; null: there is none. */
+const RosTopic* findTopic(const std::vector<RosTopic>& topics, const std::string& name);
 /** The names in left_joints or right_joints, which blanks separate. */
 std::vector<std::string> jointsOf(const std::string& names);
 
